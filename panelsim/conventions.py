@@ -1,0 +1,68 @@
+"""Axes, signs, units and constants that all of panelsim shares; CONVENTIONS.md draws them.
+
+SI units and radians inside. Right-handed axes: x forward, y to port, z up.
+"""
+
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+IntArray = NDArray[np.int64]
+
+STANDARD_GRAVITY = 9.80665  # m/s2
+SALT_WATER_DENSITY = 1025.0  # kg/m3
+FRESH_WATER_DENSITY = 1000.0  # kg/m3
+KNOT = 1852.0 / 3600.0  # m/s
+
+
+class Dof(IntEnum):
+    """The six motions, in the order of every array of six."""
+
+    SURGE = 0
+    SWAY = 1
+    HEAVE = 2
+    ROLL = 3
+    PITCH = 4
+    YAW = 5
+
+
+DOF_NAMES = tuple(dof.name.lower() for dof in Dof)
+
+
+def rotation_to_earth(roll: float, pitch: float, yaw: float) -> FloatArray:
+    """Matrix (3, 3) that turns ship axes into translating earth axes, Rz(yaw) Ry(pitch) Rx(roll).
+
+    Yaw, then pitch, then roll, each about the axes already turned: the words above TM 2003-190
+    (57)-(59). The matrix printed there is the reverse order and has one cosine for a sine.
+    Angles in rad; roll lowers starboard, pitch lowers the bow, yaw turns the bow to port.
+    """
+    cr, sr = np.cos(roll), np.sin(roll)
+    cp, sp = np.cos(pitch), np.sin(pitch)
+    cy, sy = np.cos(yaw), np.sin(yaw)
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
+
+
+def load_to_earth(load_in_ship_axes: FloatArray, displacement: FloatArray) -> FloatArray:
+    """Turn force and moment (6,) about the CG from ship axes into translating earth axes.
+
+    The force by Rz Ry Rx; the moments become those conjugate to the yaw-pitch-roll angles,
+    the exact form of TM 2003-190 (60)-(62) (printed with F6 sin for F6 cos in (62)):
+    Q4 = F4, Q5 = F5 cos η4 - F6 sin η4, Q6 = -F4 sin η5 + (F5 sin η4 + F6 cos η4) cos η5.
+    N and N m; displacement (6,) in m and rad.
+    """
+    roll, pitch, yaw = displacement[3:6]
+    force = rotation_to_earth(roll, pitch, yaw) @ load_in_ship_axes[:3]
+    m4, m5, m6 = load_in_ship_axes[3:6]
+    cr, sr, cp, sp = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch)
+    q5 = m5 * cr - m6 * sr
+    q6 = -m4 * sp + (m5 * sr + m6 * cr) * cp
+    return np.array([force[0], force[1], force[2], m4, q5, q6])

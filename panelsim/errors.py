@@ -1,0 +1,30 @@
+"""The one exception of panelsim: what is wrong, what was got, what is allowed, what to do."""
+
+
+class PanelsimError(Exception):
+    """Bad input, told in full sentences; the command line prints it and exits with 2.
+
+    Give the parts by name and leave out what does not apply:
+
+    >>> raise PanelsimError("The time step is not positive", got="0 s", allowed="more than 0 s",
+    ...                     remedy="set run.time_step, for example to 0.2")
+    Traceback (most recent call last):
+    ...
+    panelsim.errors.PanelsimError: The time step is not positive.
+      got: 0 s
+      allowed: more than 0 s
+      what to do: set run.time_step, for example to 0.2
+    """
+
+    def __init__(
+        self, what: str, *, got: object = None, allowed: object = None, remedy: str | None = None
+    ) -> None:
+        self.what = what
+        self.got = got
+        self.allowed = allowed
+        self.remedy = remedy
+        lines = [what if what.endswith((".", "?", "!")) else f"{what}."]
+        for label, part in (("got", got), ("allowed", allowed), ("what to do", remedy)):
+            if part is not None:
+                lines.append(f"  {label}: {part}")
+        super().__init__("\n".join(lines))

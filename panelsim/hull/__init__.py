@@ -1,0 +1,1 @@
+"""Hull forms, panel meshes, readers, checks and hydrostatics, all in hull axes."""

@@ -1,0 +1,66 @@
+"""The hull surface as flat-cornered panels: the one mesh type that everything downstream reads."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from panelsim.conventions import FloatArray, IntArray
+
+# The two ways to split a quadrilateral. Every surface integral takes the mean of both, so that no
+# diagonal is preferred and an upright symmetric hull feels no roll or yaw from its own panelling.
+QUAD_SPLITS = np.array([[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]])
+
+
+@dataclass(frozen=True)
+class PanelMesh:
+    """A closed surface of quadrilaterals in hull axes.
+
+    `vertices` (V, 3) [m]: x forward from midships, y to port, z up from the baseline.
+    `panels` (N, 4): vertex indices, counter-clockwise seen from the water, so that normals point
+    out of the hull; a triangle repeats its third vertex.
+    """
+
+    vertices: FloatArray
+    panels: IntArray
+
+    def __post_init__(self) -> None:
+        vertices = np.ascontiguousarray(self.vertices, dtype=np.float64).copy()
+        panels = np.ascontiguousarray(self.panels, dtype=np.int64).copy()
+        vertices.setflags(write=False)
+        panels.setflags(write=False)
+        object.__setattr__(self, "vertices", vertices)
+        object.__setattr__(self, "panels", panels)
+
+    @property
+    def panel_count(self) -> int:
+        return len(self.panels)
+
+    @cached_property
+    def area_vector(self) -> FloatArray:
+        """Area times outward unit normal (N, 3) [m2]: half the cross product of the diagonals."""
+        a, b, c, d = (self.vertices[self.panels[:, i]] for i in range(4))
+        return 0.5 * np.cross(c - a, d - b)
+
+    @cached_property
+    def area(self) -> FloatArray:
+        """Panel areas (N,) [m2]."""
+        return np.linalg.norm(self.area_vector, axis=1)
+
+    @cached_property
+    def normal(self) -> FloatArray:
+        """Outward unit normals (N, 3)."""
+        return self.area_vector / self.area[:, None]
+
+    @cached_property
+    def centroid(self) -> FloatArray:
+        """Panel centroids (N, 3) [m], the area mean over both splits of the quadrilateral."""
+        corners = self.vertices[self.split_triangles].reshape(self.panel_count, 4, 3, 3)
+        edges = corners[:, :, 1:] - corners[:, :, :1]
+        areas = np.linalg.norm(np.cross(edges[:, :, 0], edges[:, :, 1]), axis=-1)
+        return np.einsum("nt,ntx->nx", areas, corners.mean(axis=2)) / areas.sum(axis=1)[:, None]
+
+    @cached_property
+    def split_triangles(self) -> IntArray:
+        """Vertex indices (4 N, 3) of both splits of every panel; each counts with weight one half."""
+        return self.panels[:, QUAD_SPLITS].reshape(-1, 3)

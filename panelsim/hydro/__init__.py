@@ -1,0 +1,1 @@
+"""Hydrodynamic coefficients of a ship: database, boundary elements, memory functions."""

@@ -1,0 +1,1 @@
+"""Compiled loops over panels and wave components: arrays in, arrays out. The only importer of Taichi."""

@@ -1,0 +1,1 @@
+"""Wave spectra, random and regular seaways, and the pressure and elevation of their waves."""

@@ -1,0 +1,1 @@
+"""A hull with its loading, afloat in equilibrium."""
