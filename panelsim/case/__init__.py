@@ -1,0 +1,5 @@
+"""Case files."""
+
+from panelsim.case.case import Case
+
+__all__ = ["Case"]

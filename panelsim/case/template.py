@@ -1,0 +1,53 @@
+"""A commented case file to start from."""
+
+from panelsim.hull.form import HullForm
+from panelsim.ship.bundled import default_panel_area
+
+
+def case_template(form: HullForm) -> str:
+    """Text of a case file for a bundled hull in a moderate sea that suits its length."""
+    # A sea whose peak wave is 1.5 ship lengths long, at a typical steepness (TM 2003-190 8.3: 0.021).
+    wave_length = 1.5 * form.length_pp
+    peak_period = round((wave_length / 1.561) ** 0.5, 1)
+    height = round(0.021 * 1.561 * peak_period**2, 2)
+    scale = (120.0 / form.length_pp) ** 0.5
+    peak = 6.2832 / peak_period
+    return f"""\
+# {form.title}
+# Check this file with `panelsim check`, run it with `panelsim run`.
+
+[ship]
+hull = "{form.name}"
+panel_area = {default_panel_area(form):.3g}              # m2, nominal
+# The loading comes from the hull's particulars; to change it, set for example
+# mass = …                      # kg; the ship then finds its own draft
+# center_of_gravity_height = …  # m above the baseline
+# water_density = 1025.0        # kg/m3
+
+[hydrodynamics]
+method = "bem"                  # or file = "coefficients.nc", from `panelsim hydro`
+
+[seaway]
+kind = "random"                 # random | regular | calm
+spectrum = "bretschneider"
+significant_wave_height = {height:g}   # m
+peak_period = {peak_period:g}              # s
+frequencies = {{ start = {0.5 * peak:.3g}, stop = {4.5 * peak:.3g}, step = {0.08 * peak:.3g} }}   # rad/s
+wave_heading_deg = 150          # 0 following, 90 from port, 180 head
+# or compass directions: sea_direction_deg = 210 (from) here and ship_heading_deg = 0 in [run]
+minimum_energy = 0.9            # refuse frequencies that hold less of the spectrum's energy
+stretching = "wheeler"          # wheeler | none
+seed = 1
+
+[run]
+speed_knots = {min(15.0, round(0.25 * (9.81 * form.length_pp) ** 0.5 / 0.5144, 1)):g}
+model = "nonlinear"             # nonlinear | linear
+time_step = {float(f"{0.2 / scale:.1g}"):g}                 # s
+duration = 600                  # s, after the ramp
+ramp = 60                       # s over which the waves grow
+capsize_angle_deg = 90          # end the run there; 0 = never
+
+# [supplementary]               # the hull's particulars give the defaults
+# stiffness = {{ surge = 5e5, sway = 1e6, yaw = 2e9 }}      # N/m, N m/rad
+# damping = {{ surge = 1e6, sway = 2e6, roll = 2e7 }}       # N/(m/s), N m/(rad/s)
+"""

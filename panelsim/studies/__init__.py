@@ -1,0 +1,1 @@
+"""What is done with cases: a single run with all its files; studies over many runs."""

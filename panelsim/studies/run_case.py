@@ -1,0 +1,88 @@
+"""One case from its description to all its files."""
+
+import time as clock
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from panelsim.case import Case
+from panelsim.hydro.database import Progress as CoefficientProgress
+from panelsim.motion.history import History, replacing
+from panelsim.motion.march import Progress as RunProgress
+from panelsim.motion.simulate import simulate
+from panelsim.results.statistics import Statistics, statistics
+from panelsim.studies.output_folder import OUTPUT_FILES, prepare_output_folder
+from panelsim.view.recording import record
+from panelsim.view.report import report
+
+
+@dataclass(frozen=True)
+class RunOutput:
+    """What a run left: the history, its statistics, where its files are, and CPU seconds by stage."""
+
+    history: History
+    statistics: Statistics
+    files: tuple[Path, ...]
+    seconds: dict[str, float]
+
+
+def run_case(
+    case: Case,
+    folder: Path,
+    *,
+    force: bool = False,
+    on_coefficients: CoefficientProgress | None = None,
+    on_run: RunProgress | None = None,
+) -> RunOutput:
+    """Run a case and write history.nc, statistics.json, report.md with its plots, and run.rrd.
+
+    The two callbacks are told the progress of the coefficients (done, total) and of the run (seconds
+    done, seconds in all). A run that ends early leaves all its files too; its history says why.
+    """
+    prepare_output_folder(folder, force=force)
+    seconds: dict[str, float] = {}
+    with _timed(seconds, "ship and waves"):
+        ship, seaway = case.ship, case.seaway
+    with _timed(seconds, "coefficients"):
+        database = case.database(on_coefficients)
+    run = case.file.run
+    with _timed(seconds, "run"):
+        history = simulate(
+            ship,
+            seaway,
+            speed=case.speed,
+            duration=run.duration,
+            time_step=run.time_step,
+            database=database,
+            model=run.model,
+            ramp=run.ramp,
+            stretching=case.file.seaway.stretching,
+            supplementary=case.supplementary,
+            capsize_angle=float(np.deg2rad(run.capsize_angle_deg)),
+            progress=on_run,
+            case=case.resolved(),
+            seed=case.file.seaway.seed if case.file.seaway.kind == "random" else None,
+            notes=case.warnings(),
+        )
+    paths = [folder / name for name in OUTPUT_FILES]
+    with _timed(seconds, "history and statistics"):
+        history.save(paths[0], overwrite=True)
+        result = statistics(history)
+        with replacing(paths[1]) as beside:
+            beside.write_text(result.to_json(), encoding="utf-8")
+    with _timed(seconds, "report"):
+        report(history, folder)
+    with _timed(seconds, "recording"):
+        record(history, paths[3])
+    return RunOutput(history, result, tuple(paths), seconds)
+
+
+@contextmanager
+def _timed(seconds: dict[str, float], stage: str) -> Iterator[None]:
+    """Note the CPU seconds that a block takes."""
+    start = clock.process_time()
+    yield
+    seconds[stage] = clock.process_time() - start
