@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 
@@ -64,3 +65,9 @@ class PanelMesh:
     def split_triangles(self) -> IntArray:
         """Vertex indices (4 N, 3) of both splits of every panel; each counts with weight one half."""
         return self.panels[:, QUAD_SPLITS].reshape(-1, 3)
+
+    def export(self, path: str | Path) -> None:
+        """Write the mesh to an STL, OBJ, PLY, GLB or GDF file; see panelsim.hull.export.write_mesh."""
+        from panelsim.hull.export import write_mesh
+
+        write_mesh(self, path)
