@@ -1,0 +1,81 @@
+"""The one owner of the Taichi runtime: nothing else in panelsim imports or starts Taichi.
+
+Taichi keeps one runtime a process. Starting it a second time destroys what the first one held, and
+a forked child hangs at its first kernel; both are refused here in words.
+"""
+
+import contextlib
+import io
+import os
+from functools import cache
+from typing import Any
+
+from panelsim.errors import PanelsimError
+
+# Read by Taichi as it is imported: no banner on standard output, no question to the network about
+# newer versions, no emptying of a print buffer at every launch where standard output is captured.
+ENVIRONMENT = {"ENABLE_TAICHI_HEADER_PRINT": "0", "TI_SKIP_VERSION_CHECK": "ON", "TI_ENABLE_PYBUF": "0"}
+
+_program: Any = None  # the Taichi program that was found or made fit for the kernels
+_process = 0  # the process it belongs to
+
+
+@cache
+def import_taichi() -> Any:
+    """Import Taichi quietly; what the user's environment says about it stands."""
+    for name, value in ENVIRONMENT.items():
+        os.environ.setdefault(name, value)
+    import taichi
+
+    return taichi
+
+
+def start() -> None:
+    """Make sure that a Taichi runtime fit for the kernels is alive; costs nothing once it is.
+
+    One CPU thread, double precision, no fast-math: IEEE results that repeat bit for bit. A runtime
+    that somebody else has started is used if it computes in the same way. Raises PanelsimError if
+    it does not, or if this process was forked from one that had started Taichi.
+    """
+    global _program, _process
+    impl = import_taichi().lang.impl
+    current = impl.get_runtime().prog
+    if _process not in (0, os.getpid()):
+        raise PanelsimError(
+            "Taichi was started before this process was forked, and would hang here",
+            remedy='start worker processes with multiprocessing.get_context("spawn")',
+        )
+    if current is not None and current is _program:
+        return
+    if current is None:
+        _initialise()
+    _require_exact_arithmetic()
+    _program, _process = impl.get_runtime().prog, os.getpid()
+
+
+def _initialise() -> None:
+    ti = import_taichi()
+    with contextlib.redirect_stdout(io.StringIO()):  # it announces itself there
+        ti.init(
+            arch=ti.cpu,
+            default_fp=ti.f64,
+            fast_math=False,
+            cpu_max_num_threads=1,
+            offline_cache=True,
+            log_level=ti.WARN,
+        )
+
+
+def _require_exact_arithmetic() -> None:
+    """Raise PanelsimError unless the live runtime is a CPU in double precision without fast-math."""
+    ti = import_taichi()
+    config = ti.lang.impl.current_cfg()
+    if config.arch in (ti.x64, ti.arm64) and config.default_fp == ti.f64 and not config.fast_math:
+        return
+    raise PanelsimError(
+        "A Taichi runtime with other settings is alive in this process",
+        got=f"arch={config.arch}, default_fp={config.default_fp}, fast_math={config.fast_math}",
+        allowed="arch=cpu, default_fp=f64, fast_math=False",
+        remedy="let panelsim start Taichi first, pass these settings to ti.init, or use another process; "
+        "TI_ARCH, TI_DEFAULT_FP and TI_FAST_MATH in the environment must not say otherwise",
+    )

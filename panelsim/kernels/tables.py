@@ -1,0 +1,245 @@
+"""What the pressure kernel reads: the hull surface as loaded points, the sea as components.
+
+For a pressure that is linear on each triangle the force and moment are linear in the pressures at
+the vertices, F = Σ p_v G_v. The response G of a vertex follows from the geometry alone and is
+built once; a quadrilateral takes the mean over both of its diagonal splits.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from panelsim.conventions import FloatArray, IntArray
+from panelsim.errors import PanelsimError
+
+LANES = 8  # points that the kernel handles side by side
+STRETCHINGS = ("wheeler", "none")
+
+# The two ways to split a quadrilateral; each of the four triangles counts one half.
+QUAD_SPLITS = np.array([[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]])
+SPLIT_WEIGHT = 0.5
+
+INERT_POINT_HEIGHT = 1000.0  # m above the CG: where the points stand that only fill up a block
+
+Scalar = TypeVar("Scalar", bound=np.generic)
+
+
+@dataclass(frozen=True)
+class PanelTables:
+    """The hull surface in ship axes, ready for the pressure sum; made by `panel_tables`.
+
+    The points are the vertices in order of height, so that most blocks of eight are wholly wet or
+    wholly dry, filled up to a multiple of eight with inert points that no panel uses.
+
+    `points` (P, 3) [m]; `response` (P, 6): force [m2] and moment about the origin [m3] for unit
+    pressure at the point; `reach` (P,) [m]: the longest triangle edge that ends at the point;
+    `panels` (N, 4): point indices, counter-clockwise seen from the water.
+    """
+
+    points: FloatArray
+    response: FloatArray
+    reach: FloatArray
+    panels: NDArray[np.int32]
+
+    @property
+    def split_triangles(self) -> NDArray[np.int32]:
+        """Point indices (4 N, 3) of both splits of every panel; each counts with weight one half."""
+        return self.panels[:, QUAD_SPLITS].reshape(-1, 3)
+
+    @cached_property
+    def blocks(self) -> FloatArray:
+        """Points in blocks of eight (P/8, 10, 8): x, y, z, six responses, reach, eight of each in a row."""
+        columns = np.column_stack([self.points, self.response, self.reach])
+        return np.ascontiguousarray(columns.reshape(-1, LANES, 10).transpose(0, 2, 1))
+
+
+@dataclass(frozen=True)
+class WaveTables:
+    """Wave components seen from the translating earth axes; made by `wave_tables`.
+
+    All (M,), M = 0 for calm water: `amplitude` [m], `wavenumber_x` = k cos β and `wavenumber_y` =
+    -k sin β [rad/m], `wavenumber` k [rad/m], `encounter_frequency` with its sign [rad/s], `phase`
+    ε [rad]. The elevation is Σ a cos(kx x + ky y - ω_e t - ε).
+    """
+
+    amplitude: FloatArray
+    wavenumber_x: FloatArray
+    wavenumber_y: FloatArray
+    wavenumber: FloatArray
+    encounter_frequency: FloatArray
+    phase: FloatArray
+
+    @cached_property
+    def columns(self) -> FloatArray:
+        """The components as the kernel counts them (M, 6): phases in turns, decay in powers of two.
+
+        Columns a, kx/2π, ky/2π, k log2(e), ω_e/2π, ε/2π.
+        """
+        turn = 2.0 * np.pi
+        return np.column_stack(
+            [
+                self.amplitude,
+                self.wavenumber_x / turn,
+                self.wavenumber_y / turn,
+                self.wavenumber / np.log(2.0),
+                self.encounter_frequency / turn,
+                self.phase / turn,
+            ]
+        )
+
+
+def panel_tables(vertices: FloatArray, panels: IntArray) -> PanelTables:
+    """Build the tables of a surface from vertices (V, 3) in ship axes [m] and panels (N, 4).
+
+    Normals point into the water; a triangle repeats its third vertex and comes out as the plain
+    triangle. Raises PanelsimError for wrong shapes, coordinates that are not finite and indices
+    that name no vertex.
+    """
+    vertices, panels = _checked_surface(vertices, panels)
+    order = np.argsort(vertices[:, 2], kind="stable")
+    rank = np.empty(len(order), dtype=np.int32)
+    rank[order] = np.arange(len(order))
+    ordered_panels = rank[panels]
+
+    corners = ordered_panels[:, QUAD_SPLITS].reshape(-1, 3)
+    point_count = -(-len(vertices) // LANES) * LANES
+    points = np.zeros((point_count, 3))
+    points[:, 2] = INERT_POINT_HEIGHT
+    points[: len(vertices)] = vertices[order]
+    return PanelTables(
+        points=_frozen(points),
+        response=_frozen(_vertex_response(points, corners)),
+        reach=_frozen(_longest_edge(points, corners)),
+        panels=_frozen(ordered_panels),
+    )
+
+
+def wave_tables(
+    amplitude: ArrayLike,
+    wavenumber: ArrayLike,
+    wave_heading: ArrayLike,
+    encounter_frequency: ArrayLike,
+    phase: ArrayLike,
+) -> WaveTables:
+    """Build the tables of a seaway from its components, each argument (M,) or a scalar for M = 1.
+
+    Amplitude a [m], wavenumber k [rad/m], wave heading β [rad] (0 following, π/2 from port), signed
+    encounter frequency ω - U k cos β [rad/s], phase ε [rad]; no components mean calm water. Raises
+    PanelsimError for unequal lengths, values that are not finite and negative wavenumbers.
+    """
+    given = (amplitude, wavenumber, wave_heading, encounter_frequency, phase)
+    columns = [np.atleast_1d(np.asarray(column, dtype=np.float64)) for column in given]
+    shapes = {column.shape for column in columns}
+    if len(shapes) > 1 or columns[0].ndim != 1:
+        raise PanelsimError(
+            "The wave components do not have one value of each kind",
+            got=", ".join(str(column.shape) for column in columns),
+            allowed="five arrays of one length: amplitude, wavenumber, wave heading, "
+            "encounter frequency, phase",
+        )
+    a, k, heading, frequency, lead = columns
+    if not all(np.isfinite(column).all() for column in columns) or (k < 0.0).any():
+        raise PanelsimError(
+            "A wave component is not finite or has a negative wavenumber",
+            got=f"wavenumbers from {k.min()} to {k.max()} rad/m, amplitudes from {a.min()} to {a.max()} m",
+            allowed="finite numbers, wavenumbers not below 0",
+            remedy="turn the wave heading by 180 degrees to reverse a wave",
+        )
+    return WaveTables(
+        *(_frozen(column) for column in (a, k * np.cos(heading), -k * np.sin(heading), k, frequency, lead))
+    )
+
+
+def checked_poses(poses: FloatArray) -> FloatArray:
+    """Poses (B, 8) as float64: time [s], factor on all amplitudes, η1..η3 [m], η4..η6 [rad].
+
+    Raises PanelsimError if the shape is another or a value is not finite.
+    """
+    poses = np.asarray(poses, dtype=np.float64)
+    if poses.ndim != 2 or poses.shape[1] != 8:
+        raise PanelsimError(
+            "The poses do not have the right shape",
+            got=str(poses.shape),
+            allowed="(B, 8): time, wave factor, surge, sway, heave, roll, pitch, yaw",
+        )
+    if not np.isfinite(poses).all():
+        row = poses[~np.isfinite(poses).all(axis=1)][0]
+        raise PanelsimError(
+            "A pose of the ship is not finite",
+            got=f"time, wave factor, surge to yaw = {row.tolist()}",
+            allowed="finite numbers",
+            remedy="the motion has diverged: try a shorter time step",
+        )
+    return poses
+
+
+def require_stretching(stretching: str) -> None:
+    """Raise PanelsimError unless `stretching` is one of STRETCHINGS."""
+    if stretching not in STRETCHINGS:
+        raise PanelsimError(
+            "The stretching of the wave pressure is not known",
+            got=stretching,
+            allowed=", ".join(STRETCHINGS),
+        )
+
+
+def _vertex_response(points: FloatArray, corners: NDArray[np.int32]) -> FloatArray:
+    """Load on half-weight triangles (T, 3) for unit pressure at each point: (P, 6), about the origin.
+
+    -nA/3 for the force and -((x_v + x_a + x_b + x_c)/12) × nA for the moment, the exact first
+    moments of a linear pressure.
+    """
+    x = points[corners]
+    area_vector = SPLIT_WEIGHT * 0.5 * np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
+    response = np.zeros((len(points), 6))
+    for corner in range(3):
+        arm = (x[:, corner] + x.sum(axis=1)) / 12.0
+        np.add.at(response[:, :3], corners[:, corner], -area_vector / 3.0)
+        np.add.at(response[:, 3:], corners[:, corner], -np.cross(arm, area_vector))
+    return response
+
+
+def _longest_edge(points: FloatArray, corners: NDArray[np.int32]) -> FloatArray:
+    """Longest edge or diagonal that ends at each point (P,) [m]."""
+    reach = np.zeros(len(points))
+    for first, second in ((0, 1), (1, 2), (2, 0)):
+        a, b = corners[:, first], corners[:, second]
+        length = np.linalg.norm(points[b] - points[a], axis=1)
+        np.maximum.at(reach, a, length)
+        np.maximum.at(reach, b, length)
+    return reach
+
+
+def _checked_surface(vertices: FloatArray, panels: IntArray) -> tuple[FloatArray, IntArray]:
+    vertices = np.asarray(vertices, dtype=np.float64)
+    panels = np.asarray(panels)
+    if vertices.ndim != 2 or vertices.shape[1] != 3 or panels.ndim != 2 or panels.shape[1] != 4:
+        raise PanelsimError(
+            "The surface does not have the right shape",
+            got=f"vertices {vertices.shape}, panels {panels.shape}",
+            allowed="vertices (V, 3), panels (N, 4)",
+            remedy="give a triangle as a panel that repeats its third vertex",
+        )
+    if not np.isfinite(vertices).all():
+        bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
+        raise PanelsimError(
+            "A vertex of the surface is not finite", got=f"vertex {bad[0]} at {vertices[bad[0]].tolist()}"
+        )
+    if not np.issubdtype(panels.dtype, np.integer):
+        raise PanelsimError("The panels are not vertex indices", got=str(panels.dtype), allowed="integers")
+    if panels.size and (panels.min() < 0 or panels.max() >= len(vertices)):
+        raise PanelsimError(
+            "A panel names a vertex that does not exist",
+            got=f"indices from {panels.min()} to {panels.max()}",
+            allowed=f"0 to {len(vertices) - 1}",
+        )
+    return vertices, panels
+
+
+def _frozen(array: NDArray[Scalar]) -> NDArray[Scalar]:
+    array = array.copy()
+    array.setflags(write=False)
+    return array

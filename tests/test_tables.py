@@ -1,0 +1,127 @@
+"""The tables of the pressure kernel: geometry alone, so no waves and no Taichi."""
+
+import numpy as np
+import pytest
+
+from panelsim.errors import PanelsimError
+from panelsim.hull import panel_mesh
+from panelsim.kernels import tables
+from panelsim.kernels.tables import panel_tables, wave_tables
+
+ROUND_OFF = 1e-13  # a few hundred terms of order one summed in double precision
+
+# A box of 6 x 4 x 2 m off the origin, corners numbered by the bits of (x, y, z).
+LOW, SIZE = np.array([-1.0, 1.0, -3.0]), np.array([6.0, 4.0, 2.0])
+BOX = LOW + SIZE * np.array([[i & 1, i >> 1 & 1, i >> 2] for i in range(8)])
+BOX_PANELS = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+
+
+def crooked_box() -> np.ndarray:
+    """The box with its corners moved, so that no panel is plane."""
+    return BOX + np.random.default_rng(4).uniform(-0.4, 0.4, BOX.shape)
+
+
+def load_of_linear_pressure(built: tables.PanelTables, gradient: np.ndarray, offset: float) -> np.ndarray:
+    return (built.points @ gradient + offset) @ built.response
+
+
+def test_uniform_pressure_on_a_closed_surface_gives_no_load() -> None:
+    built = panel_tables(crooked_box(), BOX_PANELS)
+    assert np.abs(built.response).max() > 1.0
+    np.testing.assert_allclose(built.response.sum(axis=0), 0.0, atol=ROUND_OFF)
+
+
+def test_hydrostatic_pressure_gives_volume_and_centre_of_the_box() -> None:
+    built = panel_tables(BOX, BOX_PANELS)
+    volume, (x, y, _) = SIZE.prod(), LOW + SIZE / 2
+    load = load_of_linear_pressure(built, np.array([0.0, 0.0, -1.0]), 7.0)
+    np.testing.assert_allclose(load, volume * np.array([0, 0, 1, y, -x, 0]), atol=100 * ROUND_OFF)
+
+
+def test_any_linear_pressure_acts_as_its_gradient_on_the_centroid_of_a_crooked_box() -> None:
+    """Divergence theorem: the force is -V grad p, its moment that at the centroid of the volume."""
+    built = panel_tables(crooked_box(), BOX_PANELS)
+    loads = np.array([load_of_linear_pressure(built, -axis, 0.0) for axis in np.eye(3)])
+    volume = loads[0, 0]
+    np.testing.assert_allclose(loads[:, :3], volume * np.eye(3), atol=100 * ROUND_OFF)
+    x, y, z = loads[1, 5] / volume, loads[2, 3] / volume, loads[0, 4] / volume
+    cross = np.array([np.cross([x, y, z], axis) for axis in np.eye(3)])
+    np.testing.assert_allclose(loads[:, 3:], volume * cross, atol=1000 * ROUND_OFF)
+    assert (np.array([x, y, z]) > LOW).all() and (np.array([x, y, z]) < LOW + SIZE).all()
+
+
+def test_a_panel_with_its_third_vertex_repeated_is_the_plain_triangle() -> None:
+    corners = np.array([[0.0, 0.0, 0.0], [3.0, 0.0, 1.0], [0.0, 2.0, 2.0]])
+    built = panel_tables(corners, np.array([[0, 1, 2, 2]]))
+    area_vector = np.cross(corners[1], corners[2]) / 2
+    third = np.tile(-area_vector / 3, (3, 1))
+    np.testing.assert_allclose(built.response[:3, :3], third, atol=ROUND_OFF)
+    # The moment of unit pressure at one corner: the integral of its area coordinate times position.
+    for point, position in zip(built.response[:3], built.points[:3], strict=True):
+        arm = (position + corners.sum(axis=0)) / 12
+        np.testing.assert_allclose(point[3:], -np.cross(arm, area_vector), atol=ROUND_OFF)
+
+
+def test_a_quadrilateral_is_the_mean_of_both_its_splits() -> None:
+    corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.2], [1.3, 1.0, 1.0], [0.0, 1.0, 1.4]])
+    one = panel_tables(corners, np.array([[0, 1, 2, 2], [0, 2, 3, 3]]))
+    other = panel_tables(corners, np.array([[0, 1, 3, 3], [1, 2, 3, 3]]))
+    both = panel_tables(corners, np.array([[0, 1, 2, 3]]))
+    assert np.abs(one.response - other.response).max() > 0.01
+    np.testing.assert_allclose(both.response, (one.response + other.response) / 2, atol=ROUND_OFF)
+
+
+def test_kernels_and_meshes_split_quadrilaterals_alike() -> None:
+    np.testing.assert_array_equal(tables.QUAD_SPLITS, panel_mesh.QUAD_SPLITS)
+
+
+def test_points_are_ordered_by_height_and_filled_up_with_inert_ones() -> None:
+    vertices = np.vstack([crooked_box(), [[0.5, 3.0, 5.0]]])
+    built = panel_tables(vertices, BOX_PANELS)
+    assert built.points.shape == (16, 3) and built.blocks.shape == (2, 10, 8)
+    assert (np.diff(built.points[:, 2]) >= 0).all()
+    np.testing.assert_array_equal(built.response[8:], 0.0)
+    np.testing.assert_array_equal(built.points[9:, 2], tables.INERT_POINT_HEIGHT)
+    np.testing.assert_array_equal(built.points[built.panels], vertices[BOX_PANELS])
+    np.testing.assert_array_equal(built.blocks[1, :3, 0], built.points[8])
+
+
+def test_reach_is_the_longest_edge_or_diagonal_at_a_point() -> None:
+    built = panel_tables(BOX, BOX_PANELS)
+    np.testing.assert_allclose(built.reach, np.hypot(6.0, 4.0), rtol=ROUND_OFF)
+
+
+def test_wave_numbers_point_where_the_waves_travel() -> None:
+    """ζ = a cos(k(x cos β - y sin β) - ...): waves from port (β = 90°) run towards -y."""
+    built = wave_tables([1.0, 2.0], [0.3, 0.1], [np.pi / 2, np.pi], [0.4, 0.9], [0.0, 1.0])
+    np.testing.assert_allclose(built.wavenumber_x, [0.0, -0.1], atol=ROUND_OFF)
+    np.testing.assert_allclose(built.wavenumber_y, [-0.3, 0.0], atol=ROUND_OFF)
+    assert wave_tables([], [], [], [], []).columns.shape == (0, 6)
+
+
+@pytest.mark.parametrize(
+    ("vertices", "panels", "told"),
+    [
+        (BOX[:, :2], BOX_PANELS, "(8, 2)"),
+        (BOX, BOX_PANELS[:, :3], "(6, 3)"),
+        (BOX, BOX_PANELS + 1, "1 to 8"),
+        (BOX, BOX_PANELS - 1, "-1 to 6"),
+        (BOX, BOX_PANELS.astype(float), "float64"),
+        (np.vstack([[np.nan, 0.0, 0.0], BOX[1:]]), BOX_PANELS, "vertex 0"),
+    ],
+)
+def test_a_bad_surface_is_refused_with_its_numbers(
+    vertices: np.ndarray, panels: np.ndarray, told: str
+) -> None:
+    with pytest.raises(PanelsimError) as refused:
+        panel_tables(vertices, panels)
+    assert told in str(refused.value)
+
+
+def test_bad_wave_components_are_refused() -> None:
+    with pytest.raises(PanelsimError, match=r"\(2,\)"):
+        wave_tables([1.0, 1.0], [0.1], [0.0], [0.5], [0.0])
+    with pytest.raises(PanelsimError, match="nan"):
+        wave_tables([np.nan], [0.1], [0.0], [0.5], [0.0])
+    with pytest.raises(PanelsimError, match=r"-0\.1"):
+        wave_tables([1.0], [-0.1], [0.0], [0.5], [0.0])
