@@ -1,0 +1,248 @@
+"""The hydrodynamic database: zero-speed coefficients and potentials of one ship."""
+
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from panelsim.conventions import ComplexArray, FloatArray
+from panelsim.errors import PanelsimError
+from panelsim.hydro.bem import Progress, highest_resolved_frequency, solve_radiation
+from panelsim.ship.ship import Ship
+
+FORMAT = "panelsim hydrodynamic database 1"
+_CONVENTIONS = {
+    "axes": "ship axes: origin at the centre of gravity, x forward, y to port, z up",
+    "time_factor": "exp(+i omega t)",
+    "units": "SI, rad/s; added mass in kg, kg m, kg m2; damping in kg/s, kg m/s, kg m2/s",
+    "potential": "radiation potential of unit velocity, d(phi_j)/dn = n_j with n out of the hull",
+}
+# About what gives eight panels to the shortest wave that moves a ship (2.5 rad/s at 120 m).
+_WET_PANELS = 1000
+# For a ship of 120 m [rad/s]; others go as 1/√L. Stern-quartering seas meet the ship at
+# less than 0.3 rad/s, hence the fine start; waves shorter than half the ship turn the phase of the potentials
+# quickly, hence the fine end.
+_REFERENCE_LENGTH = 120.0
+_REFERENCE_FREQUENCIES = np.array([*np.arange(4) / 20.0, *np.arange(2, 10) / 10.0, *np.arange(20, 53) / 20.0])
+
+_VARIABLES = {
+    *("added_mass", "radiation_damping", "added_mass_infinite"),
+    *("potential_real", "potential_imag", "potential_infinite", "panel_corners"),
+}
+_PREFIX = "ship_"
+# How far a ship may differ from the one the database was made for. The longitudinal centre of gravity of a
+# ship that floats at a stated draft moves with its panelling, by centimetres on 100 m.
+_LENGTH_TOLERANCES = {"draft": 1e-4, "center_of_gravity_x": 2e-3, "center_of_gravity_z": 1e-4}
+_ABSOLUTE_TOLERANCES = {"trim": 2e-4}
+_RELATIVE_TOLERANCES = {"water_density": 1e-4, "gravity": 1e-4}
+
+
+@dataclass(frozen=True)
+class HydroDatabase:
+    """Zero-speed hydrodynamic coefficients about the centre of gravity, exp(+iωt), SI units.
+
+    A thin class over an xarray `dataset` laid out as `panelsim.hydro.bem.solve_radiation` says, with
+    what it was computed for as attributes. One database serves every speed, heading and panel size.
+    """
+
+    dataset: xr.Dataset
+
+    @classmethod
+    def compute(cls, ship: Ship, method: str = "bem", progress: Progress | None = None) -> "HydroDatabase":
+        """Solve the radiation problems of a ship; seconds to a minute.
+
+        A ship with a hull form is panelled anew, as finely as the frequencies need; one without is solved
+        on its own mesh. `progress(done, total)` counts frequencies. Raises PanelsimError for another
+        method than "bem" and for a solution that is not physical.
+        """
+        if method != "bem":
+            raise PanelsimError("This method is not known", got=method, allowed="bem")
+        solved = ship.at_panel_area(_wetted_surface(ship) / _WET_PANELS)
+        # On the given ship's centre of gravity, which its panelling moves by a little.
+        vertices = ship.to_ship_axes(solved.mesh.vertices)
+        highest = highest_resolved_frequency(_wetted_surface(solved) / _wet_panel_count(solved), ship.gravity)
+        dataset = solve_radiation(
+            vertices,
+            solved.mesh.panels,
+            ship.waterline,
+            water_density=ship.water_density,
+            gravity=ship.gravity,
+            frequencies=frequency_grid(ship.length, highest),
+            progress=progress,
+        )
+        identity = {_PREFIX + name: value for name, value in ship.identity().items()}
+        dataset.attrs |= {
+            "format": FORMAT,
+            "name": ship.name,
+            "length": ship.length,
+            **_CONVENTIONS,
+            **identity,
+        }
+        return cls(dataset)
+
+    @classmethod
+    def load(cls, path: str | Path) -> "HydroDatabase":
+        """Read a database from NetCDF-4. Raises PanelsimError for a missing, damaged or foreign file."""
+        path = Path(path)
+        if not path.is_file():
+            raise PanelsimError(
+                "There is no hydrodynamic database here",
+                got=path,
+                remedy="compute one with `panelsim hydro NAME -o FILE.nc`",
+            )
+        try:
+            with xr.open_dataset(path, engine="h5netcdf") as stored:
+                dataset = stored.load()
+        except (OSError, ValueError, KeyError, RuntimeError) as error:
+            raise PanelsimError(
+                "This hydrodynamic database cannot be read: it is damaged, cut short or not NetCDF-4",
+                got=f"{path} ({error})",
+                remedy="compute it again with `panelsim hydro NAME -o FILE.nc`",
+            ) from error
+        if dataset.attrs.get("format") != FORMAT or not set(dataset.data_vars) >= _VARIABLES:
+            raise PanelsimError(
+                "This file is no hydrodynamic database of panelsim",
+                got=f"{path}, format {dataset.attrs.get('format')!r}",
+                allowed=repr(FORMAT),
+                remedy="compute one with `panelsim hydro NAME -o FILE.nc`",
+            )
+        return cls(dataset)
+
+    def save(self, path: str | Path) -> None:
+        """Write NetCDF-4, the potentials compressed in single precision, beside the target and renamed."""
+        path = Path(path)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        beside = path.with_name(f".{path.name}.{os.getpid()}")
+        compressed = {"dtype": "float32", "compression": "gzip", "compression_opts": 6, "shuffle": True}
+        encoding = {name: compressed for name in self.dataset.data_vars if str(name).startswith("potential")}
+        try:
+            self.dataset.to_netcdf(beside, engine="h5netcdf", encoding=encoding)
+            os.replace(beside, path)
+        finally:
+            beside.unlink(missing_ok=True)
+
+    @cached_property
+    def frequencies(self) -> FloatArray:
+        """Frequencies (F,) [rad/s], ascending from 0."""
+        return np.asarray(self.dataset["frequency"].values, dtype=np.float64)
+
+    @cached_property
+    def added_mass(self) -> FloatArray:
+        """A(ω) (F, 6, 6), row = force, column = motion."""
+        return self.dataset["added_mass"].values
+
+    @cached_property
+    def radiation_damping(self) -> FloatArray:
+        """B(ω) (F, 6, 6), row = force, column = motion."""
+        return self.dataset["radiation_damping"].values
+
+    @property
+    def added_mass_zero(self) -> FloatArray:
+        """A(0) (6, 6)."""
+        return self.added_mass[0]
+
+    @cached_property
+    def added_mass_infinite(self) -> FloatArray:
+        """A(∞) (6, 6) of the boundary elements."""
+        return self.dataset["added_mass_infinite"].values
+
+    @cached_property
+    def potential(self) -> ComplexArray:
+        """Radiation potentials φ_j(ω) (F, 6, panels), ∂φ_j/∂n = n_j."""
+        real = self.dataset["potential_real"].values.astype(np.float64)
+        return real + 1j * self.dataset["potential_imag"].values
+
+    @cached_property
+    def potential_infinite(self) -> FloatArray:
+        """Radiation potentials in the limit of infinite frequency (6, panels)."""
+        return self.dataset["potential_infinite"].values.astype(np.float64)
+
+    @cached_property
+    def panel_corners(self) -> FloatArray:
+        """Corners (panels, 4, 3) [m] of the wet panels in ship axes; the port half if `half_hull`."""
+        return self.dataset["panel_corners"].values
+
+    @property
+    def half_hull(self) -> bool:
+        """True when the panels are the port half of a symmetric hull."""
+        return bool(self.dataset.attrs["half_hull"])
+
+    @property
+    def length(self) -> float:
+        """Length of the ship [m]."""
+        return float(self.dataset.attrs["length"])
+
+    @property
+    def half_breadth(self) -> float:
+        """Largest half-breadth [m] of the wet hull."""
+        return float(self.dataset.attrs["half_breadth"])
+
+    @property
+    def waterline(self) -> float:
+        """Height of the calm water surface in ship axes [m]."""
+        return float(self.dataset.attrs["waterline"])
+
+    @property
+    def water_density(self) -> float:
+        """Water density [kg/m3]."""
+        return float(self.dataset.attrs["water_density"])
+
+    @property
+    def gravity(self) -> float:
+        """Acceleration of gravity [m/s2]."""
+        return float(self.dataset.attrs["gravity"])
+
+    @property
+    def fingerprint(self) -> str:
+        """Hash of the hull that the database was computed for."""
+        return str(self.dataset.attrs[_PREFIX + "form"])
+
+    def require_for(self, ship: Ship) -> None:
+        """Raise PanelsimError, naming what differs, unless this database belongs to the ship."""
+        differences = []
+        for name, wanted in ship.identity().items():
+            stored = self.dataset.attrs.get(_PREFIX + name)
+            if not _same(name, stored, wanted, ship.length):
+                differences.append(f"{name.replace('_', ' ')} {_text(stored)} there, {_text(wanted)} here")
+        if differences:
+            raise PanelsimError(
+                f"The hydrodynamic database was computed for another ship than {ship.name}",
+                got="; ".join(differences),
+                remedy="compute one for this ship with `panelsim hydro NAME -o FILE.nc`",
+            )
+
+
+def frequency_grid(length: float, highest: float = np.inf) -> FloatArray:
+    """Frequencies (F,) [rad/s] from 0 for a ship of this length [m], drawn together to end by `highest`."""
+    scale = np.sqrt(_REFERENCE_LENGTH / length)
+    return _REFERENCE_FREQUENCIES * min(scale, highest / _REFERENCE_FREQUENCIES[-1])
+
+
+def _wet_panels(ship: Ship) -> np.ndarray:
+    return ship.to_ship_axes(ship.mesh.centroid)[:, 2] < ship.waterline
+
+
+def _wet_panel_count(ship: Ship) -> int:
+    return int(np.count_nonzero(_wet_panels(ship)))
+
+
+def _wetted_surface(ship: Ship) -> float:
+    return float(ship.mesh.area[_wet_panels(ship)].sum())
+
+
+def _same(name: str, stored: str | float | None, wanted: str | float, length: float) -> bool:
+    if stored is None or isinstance(wanted, str):
+        return stored == wanted
+    allowed = (
+        _LENGTH_TOLERANCES.get(name, 0.0) * length
+        + _ABSOLUTE_TOLERANCES.get(name, 0.0)
+        + _RELATIVE_TOLERANCES.get(name, 0.0) * abs(wanted)
+    )
+    return abs(float(stored) - wanted) <= allowed
+
+
+def _text(value: str | float | None) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

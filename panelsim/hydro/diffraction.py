@@ -1,0 +1,148 @@
+"""Diffraction loads at speed from zero-speed radiation potentials, by Green's identity.
+
+The scattered wave φ_D cancels the flow of the incident wave φ_I through the hull. Its momentum needs no
+solution of its own: P_d,j = -ρ ∫ φ_D n_j dS = ρ ∫ φ_j(ω_e) ∂φ_I/∂n dS, with the radiation potentials φ_j
+at the frequency of encounter and φ_I at the wave's own wavenumber. The load is F = (-iω_e + Lᵀ) P_d with
+L35 = +U, L26 = -U, and nothing is divided by ω_e.
+"""
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from panelsim.conventions import ComplexArray, Dof, FloatArray
+from panelsim.errors import PanelsimError
+from panelsim.hydro.database import HydroDatabase
+from panelsim.seaway.dispersion import encounter_frequency, wavenumber
+
+_GAUSS = np.array([-1.0, 1.0]) / np.sqrt(3.0)
+# Sign of each motion's potential on the mirrored half: normals of surge, heave and pitch are even in y.
+_MIRROR_SIGN = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+
+
+def diffraction_load(
+    database: HydroDatabase, frequency: FloatArray, wave_heading: FloatArray, speed: float
+) -> ComplexArray:
+    """Diffraction force and moment (M, 6) [N, N m] about the centre of gravity for waves of 1 m amplitude.
+
+    `frequency` ω (M,) [rad/s] more than 0, `wave_heading` β (M,) [rad], 0 following, π head; `speed` [m/s].
+    Complex amplitude with exp(+iω_e t), ω_e signed, on the ship's mean position in ship axes, the phase
+    that of a crest at the centre of gravity at t = 0. Raises PanelsimError for a frequency not above 0.
+    """
+    omega, heading = _components(frequency, wave_heading)
+    momentum = diffraction_momentum(database, omega, heading, speed)
+    encounter = encounter_frequency(omega, heading, speed, database.gravity)
+    load = -1j * encounter[:, None] * momentum
+    load[:, Dof.PITCH] += speed * momentum[:, Dof.HEAVE]
+    load[:, Dof.YAW] -= speed * momentum[:, Dof.SWAY]
+    return load
+
+
+def diffraction_momentum(
+    database: HydroDatabase, frequency: FloatArray, wave_heading: FloatArray, speed: float
+) -> ComplexArray:
+    """Momentum P_d (M, 6) [kg m/s, kg m2/s] of the scattered wave, arguments as in `diffraction_load`."""
+    omega, heading = _components(frequency, wave_heading)
+    encounter = encounter_frequency(omega, heading, speed, database.gravity)
+    even, odd = _normal_flow(database, omega, heading)
+    momentum = np.empty((len(omega), 6), dtype=np.complex128)
+    potential = radiation_potential(database, encounter)
+    for dof in Dof:
+        flow = even if _MIRROR_SIGN[dof] > 0 else odd
+        momentum[:, dof] = database.water_density * np.einsum("mp,mp->m", potential[:, dof], flow)
+    return momentum
+
+
+def radiation_potential(database: HydroDatabase, encounter: FloatArray) -> ComplexArray:
+    """Radiation potentials φ_j (M, 6, panels) at signed frequencies of encounter (M,) [rad/s].
+
+    Cubic between the stored frequencies; φ_j(-ω) is the conjugate of φ_j(ω). Beyond the last frequency, where
+    the panels resolve no wave, φ_j(ω) = φ_j(∞) + (φ_j(last) - φ_j(∞)) (last/ω)².
+    """
+    frequencies = database.frequencies
+    last = frequencies[-1]
+    magnitude = np.abs(encounter)
+    # Even and odd continuation through rest, A(ω) and B(ω)/ω, both leave 0 with no slope.
+    spline = CubicSpline(frequencies, database.potential, bc_type=("clamped", "not-a-knot"))
+    potential = spline(np.minimum(magnitude, last))
+    fading = np.where(magnitude > last, (last / np.maximum(magnitude, last)) ** 2, 1.0)[:, None, None]
+    infinite = database.potential_infinite
+    potential = infinite + (potential - infinite) * fading
+    return np.where((encounter < 0.0)[:, None, None], potential.conj(), potential)
+
+
+def beyond_resolution(
+    database: HydroDatabase, frequency: FloatArray, wave_heading: FloatArray, speed: float
+) -> np.ndarray:
+    """True (M,) where waves meet the ship faster than the database's last frequency resolves."""
+    omega, heading = _components(frequency, wave_heading)
+    encounter = encounter_frequency(omega, heading, speed, database.gravity)
+    return np.abs(encounter) > database.frequencies[-1]
+
+
+def _normal_flow(
+    database: HydroDatabase, omega: FloatArray, heading: FloatArray
+) -> tuple[ComplexArray, ComplexArray]:
+    """∫ ∂φ_I/∂n dS over each panel (M, panels), for potentials even and odd across the centreplane.
+
+    Four Gauss points a panel keep the wave's phase and decay where k times the panel size is near 1 or above.
+    A half hull adds its mirror image, with the sign of the potential.
+    """
+    points, area_vectors = _gauss_points(database.panel_corners)
+    port = _incident_flow(database, points, area_vectors, omega, heading)
+    if not database.half_hull:
+        return port, port
+    mirror = np.array([1.0, -1.0, 1.0])
+    starboard = _incident_flow(database, points * mirror, area_vectors * mirror, omega, heading)
+    return port + starboard, port - starboard
+
+
+def _incident_flow(
+    database: HydroDatabase,
+    points: FloatArray,
+    area_vectors: FloatArray,
+    omega: FloatArray,
+    heading: FloatArray,
+) -> ComplexArray:
+    """∫ ∇φ_I · n dS (M, panels), φ_I = (i g/ω) exp(kz - ik(x cos β - y sin β)), z above calm water."""
+    k = wavenumber(omega, database.gravity)
+    flow = np.empty((len(omega), len(points)), dtype=np.complex128)
+    for m, (cos, sin) in enumerate(zip(np.cos(heading), np.sin(heading), strict=True)):
+        direction = k[m] * np.array([-1j * cos, 1j * sin, 1.0])
+        wave = np.exp(points @ direction - k[m] * database.waterline)
+        flow[m] = (1j * database.gravity / omega[m] * wave * (area_vectors @ direction)).sum(axis=1)
+    return flow
+
+
+def _gauss_points(corners: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Points and outward area vectors (panels, 4, 3) of the bilinear surface through panel corners.
+
+    Its enclosed volume is the mean over both diagonal splits of the panel.
+    """
+    points, area_vectors = [], []
+    a, b, c, d = (corners[:, i] for i in range(4))
+    for u in _GAUSS:
+        for v in _GAUSS:
+            points.append(
+                0.25
+                * (
+                    (1 - u) * (1 - v) * a
+                    + (1 + u) * (1 - v) * b
+                    + (1 + u) * (1 + v) * c
+                    + (1 - u) * (1 + v) * d
+                )
+            )
+            along_u = 0.25 * ((1 - v) * (b - a) + (1 + v) * (c - d))
+            along_v = 0.25 * ((1 - u) * (d - a) + (1 + u) * (c - b))
+            area_vectors.append(np.cross(along_u, along_v))
+    return np.stack(points, axis=1), np.stack(area_vectors, axis=1)
+
+
+def _components(frequency: FloatArray, wave_heading: FloatArray) -> tuple[FloatArray, FloatArray]:
+    omega, heading = np.broadcast_arrays(
+        np.atleast_1d(frequency).astype(float), np.asarray(wave_heading, float)
+    )
+    if not (omega > 0.0).all():
+        raise PanelsimError(
+            "Wave frequencies must be more than 0", got=omega.min(), allowed="more than 0 rad/s"
+        )
+    return omega, heading

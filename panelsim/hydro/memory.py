@@ -1,0 +1,186 @@
+"""Memory of the radiated waves: the kernel R of the momentum form and the retardation function K = dR/dt.
+
+A hull velocity ν sets water moving with the momentum P = A∞ ν + ∫ R(s) ν(t-s) ds (Cummins 1962). R, not K,
+is led to zero at the end of the memory: then ∫K vanishes, ∫R is A(0) - A∞, and a steady velocity leaves a
+steady momentum for ever.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from panelsim.conventions import DOF_NAMES, FloatArray
+from panelsim.errors import PanelsimError
+from panelsim.hydro.conditioning import pair_scale
+from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.retardation import fourier_integral, tapered_momentum_kernel
+
+# The memory of a frigate of 120 m by 14 m; others go with the square root of length or, if stubby, of beam.
+_REFERENCE_LENGTH, _REFERENCE_BEAM = 120.0, 14.0  # m
+_REFERENCE_MEMORY = 25.0  # s
+_TIME_SAMPLES = 1001
+# Ogilvie's relation is averaged where A is neither at its logarithmic start nor at the end of the mesh.
+_INFINITE_FITTED_ON = (0.05, 0.8)  # shares of the highest frequency
+_REBUILT_WITHIN = 0.03  # of the peak
+
+
+@dataclass(frozen=True)
+class MemoryFunctions:
+    """Kernels of the radiated waves about the centre of gravity, and how good they are.
+
+    `time` (T,) [s] up to the memory length; `momentum_kernel` R (T, 6, 6) [kg/s, kg m/s, kg m2/s], zero
+    at both ends. `added_mass_infinite` (6, 6) is the A∞ that belongs to R (Ogilvie 1964): use it, not
+    that of the boundary elements. Measures (6, 6), over the square root of the peaks of A_ii A_jj
+    or B_ii B_jj: `infinite_difference` of A∞ from the boundary elements' one, `normalisation` what
+    was added to ∫R, `rebuilt_added_mass` and `rebuilt_damping` the largest errors of A and B made
+    again from R.
+    """
+
+    time: FloatArray
+    momentum_kernel: FloatArray
+    added_mass_infinite: FloatArray
+    infinite_difference: FloatArray
+    normalisation: FloatArray
+    rebuilt_added_mass: FloatArray
+    rebuilt_damping: FloatArray
+
+    @property
+    def memory_length(self) -> float:
+        """Time [s] after which a velocity is forgotten."""
+        return float(self.time[-1])
+
+    @cached_property
+    def spline(self) -> CubicSpline:
+        """R(t), of which K and all convolution weights are exact derivatives and integrals."""
+        return _momentum_spline(self.time, self.momentum_kernel)
+
+    @cached_property
+    def retardation(self) -> FloatArray:
+        """K(t) = dR/dt (T, 6, 6) [kg/s2, kg m/s2, kg m2/s2]."""
+        return self.spline(self.time, 1)
+
+
+def memory_functions(database: HydroDatabase) -> MemoryFunctions:
+    """Kernels from the radiation damping of a database.
+
+    The memory is 25 s for a frigate of 120 m. Raises PanelsimError when A and B made again from R are more
+    than 3 % of their peaks away from those of the database.
+    """
+    frequencies = database.frequencies
+    size = max(database.length / _REFERENCE_LENGTH, 2.0 * database.half_breadth / _REFERENCE_BEAM)
+    memory_length = _REFERENCE_MEMORY * np.sqrt(size)
+    time = np.linspace(0.0, memory_length, _TIME_SAMPLES)
+    kernel = tapered_momentum_kernel(frequencies, database.radiation_damping, time)
+
+    share = frequencies / frequencies[-1]
+    fitted = (share > _INFINITE_FITTED_ON[0]) & (share < _INFINITE_FITTED_ON[1])
+    memory_part = fourier_integral(time, kernel, frequencies).real
+    infinite = (database.added_mass - memory_part)[fitted].mean(axis=0)
+    # Below the lowest frequency that the memory can tell from rest, A(0) is met by a slow bump in R.
+    missing = (
+        database.added_mass_zero - infinite - _momentum_spline(time, kernel).integrate(0.0, memory_length)
+    )
+    kernel += missing * _slow_bump(time)[:, None, None]
+
+    rebuilt = fourier_integral(time, kernel, frequencies)
+    added_mass_scale = pair_scale(database.added_mass, database.half_breadth)
+    damping_error = frequencies[:, None, None] * rebuilt.imag - database.radiation_damping
+    memory = MemoryFunctions(
+        time=time,
+        momentum_kernel=kernel,
+        added_mass_infinite=infinite,
+        infinite_difference=(infinite - database.added_mass_infinite) / added_mass_scale,
+        normalisation=missing / added_mass_scale,
+        rebuilt_added_mass=np.abs(infinite + rebuilt.real - database.added_mass).max(axis=0)
+        / added_mass_scale,
+        rebuilt_damping=np.abs(damping_error).max(axis=0)
+        / pair_scale(database.radiation_damping, database.half_breadth),
+    )
+    _require_faithful(memory)
+    return memory
+
+
+@dataclass(frozen=True)
+class ConvolutionWeights:
+    """Weights (S, 6, 6) on the velocities ν at `age` (S,) [s] before now, the newest first.
+
+    `momentum`: P_m = ∫ R(s) ν(t-s) ds = Σ w_m ν(t - age_m), [kg, kg m, kg m2].
+    `rate`: dP_m/dt = ∫ K(s) ν(t-s) ds, [kg/s, kg m/s, kg m2/s].
+    """
+
+    age: FloatArray
+    momentum: FloatArray
+    rate: FloatArray
+
+
+def convolution_weights(
+    memory: MemoryFunctions, time_step: float, newest_interval: float | None = None
+) -> ConvolutionWeights:
+    """Weights for velocities sampled every `time_step` [s], the newest `newest_interval` [s] after the last.
+
+    `newest_interval` is the time step unless given; half of it serves the middle of a Runge-Kutta step. The
+    sums are exact to rounding: Σ momentum = ∫R = A(0) - A∞ and Σ rate = 0, so that a steady
+    velocity leaves P_m steady. Raises PanelsimError for an interval that is not positive.
+    """
+    newest = time_step if newest_interval is None else newest_interval
+    if not (time_step > 0.0 and newest > 0.0):
+        raise PanelsimError(
+            "The intervals of a convolution must be positive",
+            got=f"time step {time_step} s, newest interval {newest} s",
+        )
+    # As many samples for every newest interval, so that one history serves all of them.
+    older = int(np.ceil(memory.memory_length / time_step))
+    age = np.concatenate([[0.0], newest + time_step * np.arange(older + 1)])
+    # Beyond the memory R is zero and its integral stays.
+    once = memory.spline.antiderivative(1)
+    twice = memory.spline.antiderivative(2)
+    inside = np.minimum(age, memory.memory_length)
+    beyond = (age - inside)[:, None, None]
+    first_integral = once(inside)
+    second_integral = twice(inside) + beyond * first_integral
+    return ConvolutionWeights(
+        age=age,
+        momentum=_hat_weights(age, first_integral, second_integral),
+        rate=_hat_weights(age, memory.spline(inside), first_integral),
+    )
+
+
+def _hat_weights(age: FloatArray, first_integral: FloatArray, second_integral: FloatArray) -> FloatArray:
+    """∫ f(s) hat_m(s) ds at every age from the first and second integrals of f, both 0 at age 0.
+
+    By parts, a hat function is a difference of slopes of the second integral.
+    """
+    slope = np.diff(second_integral, axis=0) / np.diff(age)[:, None, None]
+    weights = np.empty_like(second_integral)
+    weights[0] = slope[0] - first_integral[0]
+    weights[1:-1] = np.diff(slope, axis=0)
+    weights[-1] = first_integral[-1] - slope[-1]
+    return weights
+
+
+def _slow_bump(time: FloatArray) -> FloatArray:
+    """Quartic [1/s] of unit area over the memory, flat at both ends."""
+    share = time / time[-1]
+    return 30.0 * (share * (1.0 - share)) ** 2 / time[-1]
+
+
+def _momentum_spline(time: FloatArray, kernel: FloatArray) -> CubicSpline:
+    return CubicSpline(time, kernel, bc_type=("not-a-knot", "clamped"))
+
+
+def _require_faithful(memory: MemoryFunctions) -> None:
+    for name, error in (
+        ("added mass", memory.rebuilt_added_mass),
+        ("radiation damping", memory.rebuilt_damping),
+    ):
+        i, j = np.unravel_index(int(np.argmax(error)), error.shape)
+        if error[i, j] > _REBUILT_WITHIN:
+            raise PanelsimError(
+                f"The {name} made again from the retardation functions is off in "
+                f"{DOF_NAMES[i]} from {DOF_NAMES[j]}",
+                got=f"{100 * error[i, j]:.1f} % of the peak",
+                allowed=f"{100 * _REBUILT_WITHIN:.0f} %",
+                remedy="the damping is ragged or ends too early: compute the database on smaller panels",
+            )

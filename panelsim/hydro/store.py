@@ -1,0 +1,56 @@
+"""Where databases are kept, so that no ship is solved twice: with the bundled hulls, and in a cache."""
+
+import hashlib
+import json
+import os
+from pathlib import Path
+
+from panelsim.errors import PanelsimError
+from panelsim.hull.form import bundled_hull_names, hull_folder
+from panelsim.hydro.database import FORMAT, HydroDatabase, Progress
+from panelsim.ship.ship import Ship
+
+STORED_NAME = "hydro.nc"
+
+
+def cache_folder() -> Path:
+    """`$PANELSIM_CACHE`, else `panelsim` in the user's cache folder."""
+    own = os.environ.get("PANELSIM_CACHE")
+    if own:
+        return Path(own)
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "panelsim"
+
+
+def database_for(ship: Ship, progress: Progress | None = None) -> HydroDatabase:
+    """The database of a ship: bundled with its hull, cached from an earlier run, or computed and cached.
+
+    `progress(done, total)` is called only while one is computed.
+    """
+    if ship.form is not None and ship.form.name in bundled_hull_names():
+        bundled = _matching(hull_folder(ship.form.name) / STORED_NAME, ship)
+        if bundled is not None:
+            return bundled
+    cached_at = cache_folder() / f"{_cache_key(ship)}.nc"
+    cached = _matching(cached_at, ship)
+    if cached is not None:
+        return cached
+    database = HydroDatabase.compute(ship, progress=progress)
+    database.save(cached_at)
+    return database
+
+
+def _matching(path: Path, ship: Ship) -> HydroDatabase | None:
+    """The database at the path if it is there, whole, and of this ship."""
+    if not path.is_file():
+        return None
+    try:
+        database = HydroDatabase.load(path)
+        database.require_for(ship)
+    except PanelsimError:
+        return None
+    return database
+
+
+def _cache_key(ship: Ship) -> str:
+    identity = {k: v if isinstance(v, str) else f"{v:.4g}" for k, v in ship.identity().items()}
+    return hashlib.sha256(json.dumps([FORMAT, identity], sort_keys=True).encode()).hexdigest()[:20]
