@@ -71,7 +71,7 @@ class FrequencyGrid(Section):
 
     def values(self) -> FloatArray:
         count = int(np.floor((self.stop - self.start) / self.step + 1e-9)) + 1
-        return self.start + self.step * np.arange(count)
+        return self.start + self.step * np.arange(count, dtype=np.float64)
 
 
 class SeawaySection(Section):

@@ -5,7 +5,6 @@ from functools import cached_property
 from typing import Final
 
 import numpy as np
-from scipy.optimize import brentq
 
 from panelsim.conventions import (
     SALT_WATER_DENSITY,
@@ -15,7 +14,7 @@ from panelsim.conventions import (
 )
 from panelsim.errors import PanelsimError
 from panelsim.hull.checks import require_sound
-from panelsim.hull.equilibrium import equilibrium
+from panelsim.hull.equilibrium import draft_of_mass, equilibrium
 from panelsim.hull.form import HullForm
 from panelsim.hull.hydrostatics import Hydrostatics, hydrostatics
 from panelsim.hull.panel_mesh import PanelMesh
@@ -69,7 +68,7 @@ class Ship:
             )
             draft, trim = rest.draft, rest.trim
         elif mass is not None:
-            draft = _draft_of_mass(mesh, mass, trim, water_density, draft)
+            draft = draft_of_mass(mesh, mass=mass, trim=trim, water_density=water_density)
 
         self.name: Final = name
         self.mesh: Final = mesh
@@ -80,8 +79,6 @@ class Ship:
         self.gravity: Final = float(gravity)
         self.gyradii: Final = tuple(float(r) for r in gyradii)
         afloat = hydrostatics(mesh, draft=draft, trim=trim, water_density=water_density, gravity=gravity)
-        if not afloat.displaced_volume > 0:
-            raise PanelsimError("The hull does not touch the water", got=f"draft {draft:g} m")
         if x is None:
             # Vertically below or above the centre of buoyancy, so that nothing turns the ship.
             x = float(afloat.center_of_buoyancy[0] + (afloat.center_of_buoyancy[2] - z) * np.tan(trim))
@@ -106,8 +103,13 @@ class Ship:
 
     @cached_property
     def vertices(self) -> FloatArray:
-        """Mesh vertices (V, 3) in ship axes [m]."""
-        return self.to_ship_axes(self.mesh.vertices)
+        """Mesh vertices (V, 3) in ship axes [m]; those on the waterline at rest lie on it exactly."""
+        vertices = self.to_ship_axes(self.mesh.vertices)
+        # Rounding would cut some of the panels that end at the waterline and not their mirror images.
+        on_waterline = np.abs(vertices[:, 2] - self.waterline) < 1e-9 * np.ptp(vertices[:, 0])
+        vertices[on_waterline, 2] = self.waterline
+        vertices.setflags(write=False)
+        return vertices
 
     @cached_property
     def waterline(self) -> float:
@@ -217,21 +219,3 @@ def _require_loading(
             got=f"{water_density:g} kg/m3",
             allowed="900 to 1100 kg/m3 (fresh 1000, salt 1025)",
         )
-
-
-def _draft_of_mass(mesh: PanelMesh, mass: float, trim: float, water_density: float, guess: float) -> float:
-    """Midship draft [m] at which the hull, kept at this trim, displaces the mass [kg]."""
-    depth = float(np.ptp(mesh.vertices[:, 2]) + np.ptp(mesh.vertices[:, 0]) * abs(np.tan(trim)))
-    low, high = float(mesh.vertices[:, 2].min()), float(mesh.vertices[:, 2].min()) + depth
-
-    def excess(draft: float) -> float:
-        afloat = hydrostatics(mesh, draft=draft, trim=trim, water_density=water_density)
-        return float(afloat.displaced_mass - mass)
-
-    if excess(high) < 0:
-        raise PanelsimError(
-            "The ship is heavier than the water its hull can displace",
-            got=f"mass {mass:g} kg",
-            allowed=f"less than {mass + excess(high):.6g} kg",
-        )
-    return float(brentq(excess, low, high, xtol=1e-12))

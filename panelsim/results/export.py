@@ -1,0 +1,41 @@
+"""A history as CSV files, for spreadsheets and other programs."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from panelsim.conventions import DOF_NAMES, FloatArray
+from panelsim.motion.history import History, replacing
+
+MOTION_UNITS = ("m",) * 3 + ("rad",) * 3
+LOAD_UNITS = ("N",) * 3 + ("N m",) * 3
+
+
+def history_to_csv(history: History, folder: str | Path) -> tuple[Path, Path]:
+    """Write motions.csv and loads.csv into `folder`, units in the header, and return their paths.
+
+    SI and radians; every number with the digits that give it back bit for bit.
+    """
+    motions = [("time [s]", history.time), ("wave_elevation [m]", history.wave_elevation)]
+    for name, suffix in (("displacement", ""), ("velocity", "/s"), ("acceleration", "/s2")):
+        motions += _columns(name, [u + suffix for u in MOTION_UNITS], getattr(history, name))
+    loads = [("time [s]", history.time)]
+    for name, values in history.loads.items():
+        loads += _columns(name, LOAD_UNITS, values)
+    folder = Path(folder)
+    return _write(folder / "motions.csv", motions), _write(folder / "loads.csv", loads)
+
+
+def _columns(name: str, units: Sequence[str], values: FloatArray) -> list[tuple[str, FloatArray]]:
+    heads = [f"{name}_{dof} [{unit}]" for dof, unit in zip(DOF_NAMES, units, strict=True)]
+    return list(zip(heads, values.T, strict=True))
+
+
+def _write(path: Path, columns: list[tuple[str, FloatArray]]) -> Path:
+    heads, values = zip(*columns, strict=True)
+    with replacing(path) as beside:
+        np.savetxt(
+            beside, np.column_stack(values), fmt="%s", delimiter=",", header=",".join(heads), comments=""
+        )
+    return path

@@ -1,0 +1,161 @@
+"""A page about a run: what was run, what came out, and pictures of it."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from panelsim.conventions import KNOT
+from panelsim.motion.history import History, replacing
+from panelsim.results.statistics import Statistics, statistics
+from panelsim.results.tables import statistics_markdown
+from panelsim.view.plots import plot_loads, plot_motions, plot_spectra
+
+OUTCOME_SENTENCES = {
+    "finished": "The run went to its end.",
+    "capsized": "The ship capsized, and the run ended there.",
+    "diverged": "The motions grew beyond all bounds, and the run ended there.",
+    "interrupted": "The run was interrupted.",
+}
+
+
+def report(history: History, folder: str | Path) -> Path:
+    """Write report.md and its figures into `folder` and return the path of the page.
+
+    Everything comes from the history, so that a page can be made again from a saved run.
+    """
+    folder = Path(folder)
+    plot_motions(history, folder / "motions.png")
+    plot_spectra(history, folder / "spectra.png")
+    plot_loads(history, folder / "loads.png")
+    path = folder / "report.md"
+    with replacing(path) as beside:
+        beside.write_text(_page(history), encoding="utf-8")
+    return path
+
+
+def _page(history: History) -> str:
+    result = statistics(history)
+    parts = [
+        f"# {history.ship_name}: {_sea_in_short(history)}",
+        f"{_outcome(history)} {result.note}".strip(),
+        "## Motions",
+        _motions_section(result),
+        "![The waves and the six motions](motions.png)",
+        "![Spectra of the waves and the motions](spectra.png)",
+        "## Loads",
+        "RMS of every load about its mean, from the ramp to the end. Forces act in translating earth axes;"
+        " moments are about the centre of gravity, conjugate to roll, pitch and yaw.",
+        "![RMS of every load](loads.png)",
+        "## What was run",
+        _table(_facts(history)),
+        "## Time spent",
+        _table(_times(result)),
+        _notes_section(history),
+        "## Files",
+        "`panelsim run` leaves beside this page: `history.nc` with everything on it, that is every motion and"
+        " load at every step, the mesh, the loading and the waves; `statistics.json`, the table above for"
+        " programs; and `run.rrd` to watch with `panelsim view run.rrd`.",
+        _case_section(history),
+    ]
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def _sea_in_short(history: History) -> str:
+    waves, knots = history.components, history.attrs["speed"] / KNOT
+    if not waves.count:
+        return f"calm water, {knots:.1f} knots"
+    kind = history.seaway_attrs["kind"]
+    return f"{kind} waves, {_wave_height(history)}, {_heading_degrees(history):.0f} deg, {knots:.1f} knots"
+
+
+def _outcome(history: History) -> str:
+    detail = history.attrs["outcome_detail"]
+    return f"**{OUTCOME_SENTENCES[history.outcome]}** {detail}".strip()
+
+
+def _motions_section(result: Statistics) -> str:
+    height = result.significant_wave_height_realised
+    text = f"From the ramp to the end, {result.duration:g} s. RMS about the mean."
+    if height is not None:
+        text += f" The waves that the ship met had a significant height of {height:.2f} m."
+    signs = "Positive: forward, to port, up; starboard down, bow down, bow to port."
+    return f"{text} {signs}\n\n{statistics_markdown(result)}".rstrip()
+
+
+def _facts(history: History) -> dict[str, str]:
+    loading, attrs = history.loading, history.attrs
+    center, gyradii = loading["center_of_gravity"], loading["gyradii"]
+    wet = history.mesh_vertices[history.panels][..., 2].mean(axis=1) < history.waterline
+    return {
+        "ship": f"{history.ship_name}, length {loading['length']:.2f} m, beam {loading['beam']:.2f} m",
+        "draft at midships": f"{loading['draft']:.3f} m, trim {np.rad2deg(loading['trim']):.3f} deg bow down",
+        "mass": f"{loading['mass'] / 1000:.1f} t in water of {loading['water_density']:g} kg/m³",
+        "centre of gravity": f"{center[0]:.3f} m from midships, {center[2]:.3f} m above the baseline",
+        "gyradii": "roll {:.2f} m, pitch {:.2f} m, yaw {:.2f} m".format(*gyradii),
+        "mesh": f"{len(history.panels)} panels, {wet.sum()} of them in the water at rest",
+        "sea": _sea(history),
+        "wave heading": _heading(history),
+        "speed": f"{attrs['speed']:.3f} m/s ({attrs['speed'] / KNOT:.2f} knots)",
+        "model": str(attrs["model"]),
+        "simulated": f"{attrs['simulated_seconds']:g} s, of it {attrs['ramp']:g} s of ramp",
+        "time step": f"{attrs['time_step']:g} s",
+        "seed": str(attrs.get("seed", "none")),
+        "panelsim": str(attrs["panelsim_version"]),
+    }
+
+
+def _sea(history: History) -> str:
+    waves, attrs = history.components, history.seaway_attrs
+    if not waves.count:
+        return "calm water"
+    low, high = waves.frequency.min(), waves.frequency.max()
+    span = f"{low:.3g} rad/s" if low == high else f"{low:.3g} to {high:.3g} rad/s"
+    parts = [attrs["kind"], f"{waves.count} component{'s' * (waves.count > 1)}", span, _wave_height(history)]
+    return ", ".join([*parts, f"stretching {attrs['stretching']}"])
+
+
+def _wave_height(history: History) -> str:
+    waves = history.components
+    if waves.count == 1:
+        return f"height {2.0 * waves.amplitude[0]:.2f} m"
+    return f"significant height {4.0 * np.sqrt(waves.variance):.2f} m"
+
+
+def _heading(history: History) -> str:
+    if not history.components.count:
+        return "none"
+    return f"{_heading_degrees(history):.1f} deg (0 following, 90 from port, 180 head)"
+
+
+def _heading_degrees(history: History) -> float:
+    """Mean direction of the waves, weighted by their energy [deg]."""
+    waves = history.components
+    mean = np.angle(np.sum(waves.amplitude**2 * np.exp(1j * waves.wave_heading)))
+    return round(float(np.rad2deg(mean)), 6) % 360.0
+
+
+def _times(result: Statistics) -> dict[str, str]:
+    factor, cpu, jit = result.realtime_factor, result.cpu_seconds, result.jit_seconds
+    return {
+        "time loop": "–" if cpu is None else f"{cpu:.3g} s of CPU",
+        "compilation": "–" if jit is None else f"{jit:.3g} s of CPU, not counted in the time loop",
+        "faster than real time": "–" if factor is None else f"{factor:.0f} times",
+    }
+
+
+def _table(rows: dict[str, str]) -> str:
+    return "\n".join(["| | |", "|---|---|", *(f"| {name} | {value} |" for name, value in rows.items())])
+
+
+def _notes_section(history: History) -> str:
+    if not history.notes:
+        return ""
+    return "\n".join(["## Notes", "", *(f"- {note}" for note in history.notes)])
+
+
+def _case_section(history: History) -> str:
+    case = json.loads(history.attrs["case"])
+    if not case:
+        return ""
+    return f"## The case\n\n```json\n{json.dumps(case, indent=2, ensure_ascii=False)}\n```"

@@ -1,0 +1,81 @@
+"""The page of a run says what was run and what came out, from the history alone."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from panelsim.motion.history import History
+from panelsim.results.statistics import statistics
+from panelsim.results.tables import statistics_markdown
+from panelsim.seaway.components import NO_WAVES, WaveComponents
+from panelsim.view.report import report
+
+MakeHistory = Callable[..., History]
+
+
+def test_the_page_holds_the_run_and_its_results(make_history: MakeHistory, tmp_path: Path) -> None:
+    history = make_history()
+    path = report(history, tmp_path)
+    page = path.read_text(encoding="utf-8")
+    assert path == tmp_path / "report.md"
+    assert statistics_markdown(statistics(history)) in page
+    for fact in (
+        "barge, length 20.00 m, beam 6.00 m",
+        "246.0 t in water of 1025 kg/m³",
+        "6 panels",
+        "5.000 m/s (9.72 knots)",
+        "2 components, 0.8 to 1.3 rad/s, significant height 2.79 m",  # 4 √(½ (0.9² + 0.4²))
+        "| time step | 0.25 s |",
+        "| faster than real time | 120 times |",
+        "**The run went to its end.**",
+        "- The sea repeats itself after 346 s.",
+        '"hull": "barge"',
+        "nonlinear",
+    ):
+        assert fact in page, fact
+
+
+def test_every_picture_of_the_page_is_there(make_history: MakeHistory, tmp_path: Path) -> None:
+    page = report(make_history(), tmp_path).read_text(encoding="utf-8")
+    pictures = [part.split(")")[0] for part in page.split("](")[1:]]
+    assert sorted(pictures) == ["loads.png", "motions.png", "spectra.png"]
+    assert all((tmp_path / name).is_file() for name in pictures)
+
+
+def test_the_page_can_be_made_again_from_the_file(make_history: MakeHistory, tmp_path: Path) -> None:
+    history = make_history()
+    saved = History.load(history.save(tmp_path / "history.nc"))
+    first, again = report(history, tmp_path / "first"), report(saved, tmp_path / "again")
+    assert first.read_bytes() == again.read_bytes()
+
+
+@pytest.mark.parametrize("outcome", ["capsized", "diverged", "interrupted"])
+def test_a_run_that_ended_early_says_so_first(
+    outcome: str, make_history: MakeHistory, tmp_path: Path
+) -> None:
+    history = make_history(duration=8.0, outcome=outcome, outcome_detail="t = 8 s, roll 91.2°", notes=())
+    lines = report(history, tmp_path).read_text(encoding="utf-8").splitlines()
+    assert "t = 8 s, roll 91.2°" in lines[2]
+    assert "before its ramp" in lines[2]
+    assert "## Notes" not in lines
+
+
+def test_headings_are_averaged_around_the_circle(make_history: MakeHistory, tmp_path: Path) -> None:
+    """Waves 10 degrees to either side of following come from astern, not from ahead."""
+    heading = np.deg2rad([10.0, 350.0])
+    waves = WaveComponents(np.array([1.0, 1.0]), np.array([0.8, 0.8]), heading, np.zeros(2))
+    page = report(make_history(components=waves), tmp_path).read_text(encoding="utf-8")
+    degrees = float(page.split("| wave heading | ")[1].split(" deg")[0])
+    assert degrees == 0.0
+
+
+def test_regular_waves_have_a_height_and_calm_water_has_none(
+    make_history: MakeHistory, tmp_path: Path
+) -> None:
+    wave = WaveComponents(np.array([1.5]), np.array([0.6]), np.array([np.pi]), np.zeros(1))
+    page = report(make_history(components=wave, seaway_kind="regular"), tmp_path / "a").read_text("utf-8")
+    assert page.startswith("# barge: regular waves, height 3.00 m, 180 deg, 9.7 knots")
+    page = report(make_history(components=NO_WAVES, seaway_kind="calm"), tmp_path / "b").read_text("utf-8")
+    assert page.startswith("# barge: calm water, 9.7 knots")
