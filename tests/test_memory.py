@@ -144,7 +144,7 @@ def test_weights_reproduce_added_mass_and_damping(memory: MemoryFunctions, newes
 
 
 def test_a_linear_velocity_is_convolved_exactly(memory: MemoryFunctions) -> None:
-    """ν = s, its own interpolant: Σ w s = ∫ R s ds at any step, here also one that does not divide 25 s."""
+    """ν = s, its own interpolant: Σ w s = ∫ R s ds at any step, here also one that does not divide 32 s."""
     exact, _ = quad(lambda s: memory.spline(s)[2, 3] * s, 0.0, memory.memory_length, limit=400)
     for step, newest in ((0.2, 0.2), (0.2, 0.1), (0.37, 0.37)):
         weights = convolution_weights(memory, step, newest)
@@ -160,10 +160,10 @@ def test_one_history_serves_whole_and_half_steps(memory: MemoryFunctions) -> Non
 
 
 def test_memory_goes_with_the_root_of_length_or_beam(memory: MemoryFunctions) -> None:
-    assert memory.memory_length == pytest.approx(25.0)
+    assert memory.memory_length == pytest.approx(32.0)
     stubby = database()
     stubby.dataset.attrs["half_breadth"] = 28.0
-    assert memory_functions(stubby).memory_length == pytest.approx(50.0)
+    assert memory_functions(stubby).memory_length == pytest.approx(64.0)
 
 
 def test_ragged_damping_is_refused() -> None:

@@ -19,7 +19,7 @@ from panelsim.hydro.retardation import fourier_integral, tapered_momentum_kernel
 
 # The memory of a frigate of 120 m by 14 m; others go with the square root of length or, if stubby, of beam.
 _REFERENCE_LENGTH, _REFERENCE_BEAM = 120.0, 14.0  # m
-_REFERENCE_MEMORY = 25.0  # s
+_REFERENCE_MEMORY = 32.0  # s, half faded at 25 s
 _TIME_SAMPLES = 1001
 # Ogilvie's relation is averaged where A is neither at its logarithmic start nor at the end of the mesh.
 _INFINITE_FITTED_ON = (0.05, 0.8)  # shares of the highest frequency
@@ -65,7 +65,7 @@ class MemoryFunctions:
 def memory_functions(database: HydroDatabase) -> MemoryFunctions:
     """Kernels from the radiation damping of a database.
 
-    The memory is 25 s for a frigate of 120 m. Raises PanelsimError when A and B made again from R are more
+    The memory is 32 s for a frigate of 120 m. Raises PanelsimError when A and B made again from R are more
     than 3 % of their peaks away from those of the database.
     """
     frequencies = database.frequencies
