@@ -17,11 +17,12 @@ from panelsim.case import Case
 from panelsim.case.case import MESH_SUFFIXES
 from panelsim.case.template import case_template
 from panelsim.errors import PanelsimError
+from panelsim.files import replacing
 from panelsim.hull.checks import check_mesh
 from panelsim.hull.form import load_hull
 from panelsim.hull.readers import read_mesh
 from panelsim.hydro.database import HydroDatabase
-from panelsim.motion.history import History, replacing
+from panelsim.motion.history import History
 from panelsim.results.export import history_to_csv
 from panelsim.results.tables import statistics_table
 from panelsim.seaway.components import repeat_time

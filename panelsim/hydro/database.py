@@ -7,10 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.bem import Progress, highest_resolved_frequency, solve_radiation
+from panelsim.ship.bundled import default_panel_area
 from panelsim.ship.ship import Ship
 
 FORMAT = "panelsim hydrodynamic database 1"
@@ -60,20 +62,19 @@ class HydroDatabase:
         """
         if method != "bem":
             raise PanelsimError("This method is not known", got=method, allowed="bem")
-        solved = ship.at_panel_area(_wetted_surface(ship) / _WET_PANELS)
-        # On the given ship's centre of gravity, which its panelling moves by a little.
-        vertices = ship.to_ship_axes(solved.mesh.vertices)
-        highest = highest_resolved_frequency(_wetted_surface(solved) / _wet_panel_count(solved), ship.gravity)
+        solved = _panelled_for_solution(ship)
+        wet = _wet_panels(solved)
+        resolved = highest_resolved_frequency(float(solved.mesh.area[wet].mean()), ship.gravity)
         dataset = solve_radiation(
-            vertices,
+            solved.vertices,
             solved.mesh.panels,
-            ship.waterline,
+            solved.waterline,
             water_density=ship.water_density,
             gravity=ship.gravity,
-            frequencies=frequency_grid(ship.length, highest),
+            frequencies=frequency_grid(ship.length, resolved),
             progress=progress,
         )
-        identity = {_PREFIX + name: value for name, value in ship.identity().items()}
+        identity = {_PREFIX + name: value for name, value in solved.identity().items()}
         dataset.attrs |= {
             "format": FORMAT,
             "name": ship.name,
@@ -221,16 +222,17 @@ def frequency_grid(length: float, highest: float = np.inf) -> FloatArray:
     return _REFERENCE_FREQUENCIES * min(scale, highest / _REFERENCE_FREQUENCIES[-1])
 
 
-def _wet_panels(ship: Ship) -> np.ndarray:
+def _panelled_for_solution(ship: Ship) -> Ship:
+    """The ship on about a thousand wet panels, whatever mesh it comes with: one hull, one database."""
+    if ship.form is None:
+        return ship
+    first = ship.at_panel_area(default_panel_area(ship.form))
+    wetted_surface = float(first.mesh.area[_wet_panels(first)].sum())
+    return ship.at_panel_area(wetted_surface / _WET_PANELS)
+
+
+def _wet_panels(ship: Ship) -> NDArray[np.bool_]:
     return ship.to_ship_axes(ship.mesh.centroid)[:, 2] < ship.waterline
-
-
-def _wet_panel_count(ship: Ship) -> int:
-    return int(np.count_nonzero(_wet_panels(ship)))
-
-
-def _wetted_surface(ship: Ship) -> float:
-    return float(ship.mesh.area[_wet_panels(ship)].sum())
 
 
 def _same(name: str, stored: str | float | None, wanted: str | float, length: float) -> bool:

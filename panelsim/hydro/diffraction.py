@@ -7,6 +7,7 @@ L35 = +U, L26 = -U, and nothing is divided by ω_e.
 """
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from panelsim.conventions import ComplexArray, Dof, FloatArray
@@ -72,7 +73,7 @@ def radiation_potential(database: HydroDatabase, encounter: FloatArray) -> Compl
 
 def beyond_resolution(
     database: HydroDatabase, frequency: FloatArray, wave_heading: FloatArray, speed: float
-) -> np.ndarray:
+) -> NDArray[np.bool_]:
     """True (M,) where waves meet the ship faster than the database's last frequency resolves."""
     omega, heading = _components(frequency, wave_heading)
     encounter = encounter_frequency(omega, heading, speed, database.gravity)

@@ -1,9 +1,7 @@
 """What a run leaves behind: every motion and every load, with the ship and the waves that made them."""
 
 import json
-import os
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from importlib.metadata import version
@@ -16,6 +14,7 @@ from numpy.typing import NDArray
 
 from panelsim.conventions import DOF_NAMES, FloatArray, IntArray
 from panelsim.errors import PanelsimError
+from panelsim.files import replacing
 from panelsim.seaway.components import WaveComponents
 
 if TYPE_CHECKING:  # only its fields are read: a saved history opens without the hull package
@@ -275,18 +274,6 @@ class History:
             ) from error
         _require_history(tree, path)
         return cls(tree)
-
-
-@contextmanager
-def replacing(path: Path) -> Iterator[Path]:
-    """Lend a name beside `path` to write to; at the end rename it to `path`, after an error remove it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    beside = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
-    try:
-        yield beside
-        beside.replace(path)
-    finally:
-        beside.unlink(missing_ok=True)
 
 
 def _root_group(

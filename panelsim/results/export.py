@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from panelsim.conventions import DOF_NAMES, FloatArray
-from panelsim.motion.history import History, replacing
+from panelsim.files import replacing
+from panelsim.motion.history import History
 
 MOTION_UNITS = ("m",) * 3 + ("rad",) * 3
 LOAD_UNITS = ("N",) * 3 + ("N m",) * 3

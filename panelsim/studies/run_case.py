@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from panelsim.case import Case
+from panelsim.files import replacing
 from panelsim.hydro.database import Progress as CoefficientProgress
-from panelsim.motion.history import History, replacing
+from panelsim.motion.history import History
 from panelsim.motion.march import Progress as RunProgress
 from panelsim.motion.simulate import simulate
 from panelsim.results.statistics import Statistics, statistics

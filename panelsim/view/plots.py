@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 from scipy.signal import welch
 
 from panelsim.conventions import DOF_NAMES, FloatArray
-from panelsim.motion.history import History, replacing
+from panelsim.files import replacing
+from panelsim.motion.history import History
 from panelsim.results.statistics import display_unit
 from panelsim.view.frames import liveliest_window
 

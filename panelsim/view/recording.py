@@ -27,7 +27,8 @@ from scipy.spatial.transform import Rotation
 
 from panelsim.conventions import DOF_NAMES, FloatArray, IntArray
 from panelsim.errors import PanelsimError
-from panelsim.motion.history import History, replacing
+from panelsim.files import replacing
+from panelsim.motion.history import History
 from panelsim.results.statistics import display_unit, statistics
 from panelsim.results.tables import statistics_markdown
 from panelsim.view.blueprint import FILM_TIMELINE, ship_blueprint

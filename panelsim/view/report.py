@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from panelsim.conventions import KNOT
-from panelsim.motion.history import History, replacing
+from panelsim.files import replacing
+from panelsim.motion.history import History
 from panelsim.results.statistics import Statistics, statistics
 from panelsim.results.tables import statistics_markdown
 from panelsim.view.plots import plot_loads, plot_motions, plot_spectra
