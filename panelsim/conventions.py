@@ -17,6 +17,15 @@ SALT_WATER_DENSITY = 1025.0  # kg/m3
 FRESH_WATER_DENSITY = 1000.0  # kg/m3
 KNOT = 1852.0 / 3600.0  # m/s
 
+# The two ways to split a quadrilateral into triangles. Every surface integral takes the mean of both, each
+# triangle counting one half, so that no diagonal is preferred and an upright symmetric hull feels no
+# roll or yaw from its own panelling.
+QUAD_SPLITS = np.array([[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]])
+SPLIT_WEIGHT = 0.5
+
+# How the wave pressure reaches up to the instantaneous surface: Wheeler's stretching, or not at all.
+STRETCHINGS = ("wheeler", "none")
+
 
 class Dof(IntEnum):
     """The six motions, in the order of every array of six."""

@@ -7,8 +7,9 @@ import sys
 import numpy as np
 import pytest
 
+from panelsim.conventions import STRETCHINGS
 from panelsim.errors import PanelsimError
-from panelsim.kernels import oracle, tables
+from panelsim.kernels import oracle
 from panelsim.kernels.pressure import wetted_surface_load
 from panelsim.kernels.tables import PanelTables, WaveTables, panel_tables, wave_tables
 
@@ -99,7 +100,7 @@ def worst_difference(load: np.ndarray, reference: np.ndarray, panels: PanelTable
 
 
 @pytest.mark.parametrize("count", [0, 1, 19])
-@pytest.mark.parametrize("stretching", tables.STRETCHINGS)
+@pytest.mark.parametrize("stretching", STRETCHINGS)
 @pytest.mark.parametrize("hull", HULLS)
 def test_kernel_agrees_with_its_twin_at_any_attitude(hull: str, stretching: str, count: int) -> None:
     panels, waves = HULLS[hull](), sea(count)
@@ -113,7 +114,7 @@ def test_kernel_agrees_with_its_twin_at_any_attitude(hull: str, stretching: str,
     np.testing.assert_array_equal(load[-1], 0.0)  # out of the water
 
 
-@pytest.mark.parametrize("stretching", tables.STRETCHINGS)
+@pytest.mark.parametrize("stretching", STRETCHINGS)
 def test_vertices_exactly_on_the_surface_count_as_dry_and_do_no_harm(stretching: str) -> None:
     """The bottom, then the deck of the box exactly at the calm surface, then the surface half way."""
     poses = np.zeros((3, 8))
@@ -134,7 +135,7 @@ def test_every_pattern_of_wet_and_dry_corners_of_one_panel() -> None:
     for heights in itertools.product([-1.0, 0.0, 0.7], repeat=4):
         corners = np.column_stack([[0, 2, 2.2, 0], [0, 0.1, 1.5, 1], heights])
         panels, pose = panel_tables(corners, np.array([[0, 1, 2, 3]])), np.zeros((1, 8))
-        for stretching in tables.STRETCHINGS:
+        for stretching in STRETCHINGS:
             given = {"waterline": 0.0, "water_density": 1.0, "gravity": 1.0, "stretching": stretching}
             load = wetted_surface_load(panels, sea(0), pose, **given)
             reference = oracle.wetted_surface_load(panels, sea(0), pose, **given)
@@ -156,7 +157,7 @@ def test_other_meshes_and_seas_do_not_compile_the_kernel_again() -> None:
     given = {"waterline": 0.0, **WATER}
     wetted_surface_load(box(), sea(1), POSES, **given)
     compiled = impl.get_runtime().get_num_compiled_functions()
-    for stretching in tables.STRETCHINGS:
+    for stretching in STRETCHINGS:
         wetted_surface_load(ship(), sea(37), POSES[:2], stretching=stretching, **given)
     assert impl.get_runtime().get_num_compiled_functions() == compiled
 

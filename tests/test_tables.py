@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from panelsim.errors import PanelsimError
-from panelsim.hull import panel_mesh
 from panelsim.kernels import tables
 from panelsim.kernels.tables import panel_tables, wave_tables
 
@@ -69,10 +68,6 @@ def test_a_quadrilateral_is_the_mean_of_both_its_splits() -> None:
     both = panel_tables(corners, np.array([[0, 1, 2, 3]]))
     assert np.abs(one.response - other.response).max() > 0.01
     np.testing.assert_allclose(both.response, (one.response + other.response) / 2, atol=ROUND_OFF)
-
-
-def test_kernels_and_meshes_split_quadrilaterals_alike() -> None:
-    np.testing.assert_array_equal(tables.QUAD_SPLITS, panel_mesh.QUAD_SPLITS)
 
 
 def test_points_are_ordered_by_height_and_filled_up_with_inert_ones() -> None:

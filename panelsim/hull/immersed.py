@@ -4,10 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from panelsim.conventions import FloatArray, IntArray, rotation_to_earth
+from panelsim.conventions import SPLIT_WEIGHT, FloatArray, IntArray, rotation_to_earth
 from panelsim.hull.panel_mesh import PanelMesh
 
-SPLIT_WEIGHT = 0.5  # a quadrilateral is the mean of its two diagonal splits
 ON_PLANE = 1e-9  # a vertex this part of the hull's size off the plane lies on it, for counts and extents
 
 

@@ -6,11 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from panelsim.conventions import FloatArray, IntArray
-
-# The two ways to split a quadrilateral. Every surface integral takes the mean of both, so that no
-# diagonal is preferred and an upright symmetric hull feels no roll or yaw from its own panelling.
-QUAD_SPLITS = np.array([[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]])
+from panelsim.conventions import QUAD_SPLITS, FloatArray, IntArray
 
 
 @dataclass(frozen=True)

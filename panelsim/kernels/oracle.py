@@ -4,10 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from panelsim.conventions import FloatArray, rotation_to_earth
+from panelsim.conventions import QUAD_SPLITS, SPLIT_WEIGHT, FloatArray, rotation_to_earth
 from panelsim.kernels.tables import (
-    QUAD_SPLITS,
-    SPLIT_WEIGHT,
     PanelTables,
     WaveTables,
     checked_poses,

@@ -14,11 +14,10 @@ Taichi reads the annotations of this module itself: no `from __future__ import a
 
 import numpy as np
 
-from panelsim.conventions import FloatArray
+from panelsim.conventions import SPLIT_WEIGHT, FloatArray
 from panelsim.kernels import runtime
 from panelsim.kernels.tables import (
     LANES,
-    SPLIT_WEIGHT,
     PanelTables,
     WaveTables,
     checked_poses,
@@ -263,7 +262,7 @@ def _correct_cut_panel(blocks: ti.template(), state: ti.template(), corners, hea
     """Load to add for a panel that the surface cuts, the sum over its four half-weight triangles."""
     load = ti.Vector.zero(ti.f64, 6)
     for half in range(4):
-        # tables.QUAD_SPLITS, written out: a loop over it would compile the clip four times.
+        # conventions.QUAD_SPLITS, written out: a loop over it would compile the clip four times.
         a, b, c = corners[0], corners[1], corners[2]
         if half == 1:
             b, c = corners[2], corners[3]

@@ -12,16 +12,10 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from panelsim.conventions import FloatArray, IntArray
+from panelsim.conventions import QUAD_SPLITS, SPLIT_WEIGHT, STRETCHINGS, FloatArray, IntArray
 from panelsim.errors import PanelsimError
 
 LANES = 8  # points that the kernel handles side by side
-STRETCHINGS = ("wheeler", "none")
-
-# The two ways to split a quadrilateral; each of the four triangles counts one half.
-QUAD_SPLITS = np.array([[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]])
-SPLIT_WEIGHT = 0.5
-
 INERT_POINT_HEIGHT = 1000.0  # m above the CG: where the points stand that only fill up a block
 
 Scalar = TypeVar("Scalar", bound=np.generic)

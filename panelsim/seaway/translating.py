@@ -5,11 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from panelsim.conventions import FloatArray
+from panelsim.conventions import STRETCHINGS, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.seaway.components import WaveComponents
-
-STRETCHINGS = ("wheeler", "none")
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import trimesh
 
-from panelsim.conventions import rotation_to_earth
+from panelsim.conventions import QUAD_SPLITS, STRETCHINGS, rotation_to_earth
 from panelsim.kernels.pressure import wetted_surface_load
-from panelsim.kernels.tables import QUAD_SPLITS, STRETCHINGS, WaveTables, panel_tables, wave_tables
+from panelsim.kernels.tables import WaveTables, panel_tables, wave_tables
 
 WATERLINE, DENSITY, GRAVITY = -1.5, 1025.0, 9.80665
 WATER = {"waterline": WATERLINE, "water_density": DENSITY, "gravity": GRAVITY}
