@@ -9,8 +9,9 @@ import xarray as xr
 from panelsim.errors import PanelsimError
 from panelsim.hull.form import load_hull
 from panelsim.hydro.bem import highest_resolved_frequency
-from panelsim.hydro.database import HydroDatabase, frequency_grid
+from panelsim.hydro.database import HydroDatabase, _panelled_for_solution, frequency_grid
 from panelsim.hydro.memory import memory_functions
+from panelsim.ship.bundled import load_ship
 from panelsim.ship.ship import Ship
 
 
@@ -116,6 +117,16 @@ def test_failed_write_leaves_the_old_file(
         database.save(path)
     assert path.read_bytes() == b"old"
     assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_one_hull_is_solved_on_one_mesh_whatever_mesh_it_comes_with() -> None:
+    """Bit for bit, so that a mesh study or a cache never mixes coefficients."""
+    one, two = (_panelled_for_solution(load_ship("frigate", panel_area=area)) for area in (2.5, 8.0))
+    assert np.array_equal(one.vertices, two.vertices)
+    assert np.array_equal(one.mesh.panels, two.mesh.panels)
+    assert one.identity() == two.identity()
+    wet = one.vertices[one.mesh.panels].mean(axis=1)[:, 2] < one.waterline
+    assert 900 < np.count_nonzero(wet) < 1200
 
 
 def test_unknown_method_is_refused() -> None:

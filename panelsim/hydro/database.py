@@ -1,6 +1,5 @@
 """The hydrodynamic database: zero-speed coefficients and potentials of one ship."""
 
-import os
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.files import replacing
 from panelsim.hydro.bem import Progress, highest_resolved_frequency, solve_radiation
 from panelsim.ship.bundled import default_panel_area
 from panelsim.ship.ship import Ship
@@ -114,16 +114,10 @@ class HydroDatabase:
 
     def save(self, path: str | Path) -> None:
         """Write NetCDF-4, the potentials compressed in single precision, beside the target and renamed."""
-        path = Path(path)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        beside = path.with_name(f".{path.name}.{os.getpid()}")
         compressed = {"dtype": "float32", "compression": "gzip", "compression_opts": 6, "shuffle": True}
         encoding = {name: compressed for name in self.dataset.data_vars if str(name).startswith("potential")}
-        try:
+        with replacing(Path(path)) as beside:
             self.dataset.to_netcdf(beside, engine="h5netcdf", encoding=encoding)
-            os.replace(beside, path)
-        finally:
-            beside.unlink(missing_ok=True)
 
     @cached_property
     def frequencies(self) -> FloatArray:
