@@ -19,9 +19,10 @@ check: $(READY)
 	$(BIN)/lint-imports
 
 $(READY): pyproject.toml constraints.txt
-	$(PYTHON) -m venv $(VENV) || { echo "panelsim needs Python 3.11-3.13 with venv; on Debian: apt install python3-venv" >&2; exit 1; }
-	$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable ".[dev]"
-	touch $@
+	@echo "Setting up $(VENV) (a minute or two) ..."
+	@$(PYTHON) -m venv $(VENV) || { echo "panelsim needs Python 3.11-3.13 with venv; on Debian: apt install python3-venv" >&2; exit 1; }
+	@$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable ".[dev]"
+	@touch $@
 
 clean:
 	rm -rf $(VENV) runs
