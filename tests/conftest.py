@@ -1,14 +1,21 @@
-"""A made-up run of a box barge, for tests of everything that reads a history."""
+"""A made-up run of a box barge, for tests of everything that reads a history, and real runs of a frigate."""
 
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 from panelsim.hull.panel_mesh import PanelMesh
+from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.store import database_for
+from panelsim.loads.supplementary import Supplementary
 from panelsim.motion.history import History
+from panelsim.motion.simulate import simulate
 from panelsim.seaway.components import WaveComponents
+from panelsim.seaway.seaways import CalmSeaway, Seaway
+from panelsim.ship.bundled import load_ship
 from panelsim.ship.ship import Ship
 
 SPEED = 5.0
@@ -72,3 +79,47 @@ def make_history(barge: Ship) -> Callable[..., History]:
         return History.build(**(values | given))
 
     return make
+
+
+@pytest.fixture(scope="session")
+def halifax() -> Ship:
+    """The ship of TM 2003-190 Table 2 on its medium mesh."""
+    return load_ship("halifax", 2.5)
+
+
+@pytest.fixture(scope="session")
+def halifax_database(halifax: Ship) -> HydroDatabase:
+    """Its coefficients, bundled or from the cache."""
+    return database_for(halifax)
+
+
+@pytest.fixture(scope="session")
+def springs(halifax: Ship) -> Supplementary:
+    """Springs and dampers of TM 2003-190 section 8, as the particulars of the hull have them."""
+    assert halifax.form is not None
+    return Supplementary(**halifax.form.supplementary)
+
+
+@pytest.fixture(scope="session")
+def run_halifax(
+    halifax: Ship, halifax_database: HydroDatabase, springs: Supplementary
+) -> Callable[..., History]:
+    """A runner of short runs from rest without ramp, dt 0.2 s, at zero speed, with springs.
+
+    Any argument of `simulate` may be given instead; a seaway may be plain `WaveComponents`.
+    """
+
+    def run(seaway: Seaway | WaveComponents | None = None, **given: Any) -> History:
+        if isinstance(seaway, WaveComponents):
+            seaway = SimpleNamespace(kind="regular", components=seaway)
+        defaults = {
+            "speed": 0.0,
+            "duration": 60.0,
+            "time_step": 0.2,
+            "ramp": 0.0,
+            "database": halifax_database,
+            "supplementary": springs,
+        }
+        return simulate(halifax, CalmSeaway() if seaway is None else seaway, **(defaults | given))
+
+    return run

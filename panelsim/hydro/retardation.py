@@ -41,7 +41,8 @@ def fourier_integral(x: FloatArray, values: FloatArray, t: FloatArray) -> Comple
     slope = np.diff(flat, axis=0) / np.diff(x)[:, None]
     # By parts: the ends, and one jump of slope at each sample.
     ends = (wave[:, -1:] * flat[-1] - wave[:, :1] * flat[0]) / (1j * moving)
-    integral[~still] = ends + np.diff(wave, axis=1) @ slope / moving**2
+    # Not a matrix product: its bits would depend on the number of threads of the linear algebra.
+    integral[~still] = ends + np.einsum("tx,xk->tk", np.diff(wave, axis=1), slope) / moving**2
     return integral.reshape(len(t), *values.shape[1:])
 
 

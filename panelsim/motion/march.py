@@ -8,10 +8,14 @@ import numpy as np
 from panelsim.conventions import Dof, FloatArray
 from panelsim.loads.load import Instant
 from panelsim.motion.equations import EquationsOfMotion
-from panelsim.motion.steppers import rk4_step
+from panelsim.motion.steppers import Rates, rk4_step
 
 # Pitch near 90° is where yaw-pitch-roll angles cease to mean anything; no ship comes back from 60°.
 PITCH_LIMIT = np.deg2rad(60.0)
+# Steps that can follow a ship as she capsizes see less of a turn at a time: this is an unstable scheme.
+FASTEST_CAPSIZE = np.deg2rad(45.0)
+
+STEPS_BETWEEN_PROGRESS = 25
 
 Progress = Callable[[float, float], None]
 
@@ -24,21 +28,32 @@ class Limits:
     heave: float
     drift: float
 
-    def exceeded(self, displacement: FloatArray) -> tuple[str, str] | None:
-        """Outcome and cause, or None while the ship is within all limits."""
-        if not np.isfinite(displacement).all():
-            return "diverged", "the motion is no longer finite"
-        roll, pitch = abs(displacement[Dof.ROLL]), abs(displacement[Dof.PITCH])
-        if 0 < self.capsize_angle < roll:
+    def exceeded(self, displacement: FloatArray, before: FloatArray) -> tuple[str, str] | None:
+        """Outcome and cause, or None while the ship is within all limits; `before` is a step earlier."""
+        heave, roll, pitch = (float(displacement[dof]) for dof in (Dof.HEAVE, Dof.ROLL, Dof.PITCH))
+        drift = float(np.hypot(*displacement[:2]))
+        # Before the roll: a motion that grows without bound passes all limits in the same step.
+        if abs(pitch) > PITCH_LIMIT:
+            return "diverged", f"pitch {np.rad2deg(pitch):.4g}°, limit 60°"
+        if abs(heave) > self.heave:
+            return "diverged", f"heave {heave:.4g} m, limit {self.heave:g} m"
+        if drift > self.drift:
+            return "diverged", f"drift {drift:.4g} m, limit {self.drift:g} m"
+        if 0 < self.capsize_angle < abs(roll):
             limit = np.rad2deg(self.capsize_angle)
-            return "capsized", f"roll {np.rad2deg(displacement[Dof.ROLL]):.1f}°, limit {limit:g}°"
-        if pitch > PITCH_LIMIT:
-            return "diverged", f"pitch {np.rad2deg(displacement[Dof.PITCH]):.1f}°, limit 60°"
-        if abs(displacement[Dof.HEAVE]) > self.heave:
-            return "diverged", f"heave {displacement[Dof.HEAVE]:.4g} m, limit {self.heave:g} m"
-        if np.hypot(*displacement[:2]) > self.drift:
-            return "diverged", f"drift {np.hypot(*displacement[:2]):.4g} m, limit {self.drift:g} m"
+            turned = abs(roll - before[Dof.ROLL])
+            outcome = "capsized" if turned < FASTEST_CAPSIZE else "diverged"
+            return outcome, f"roll {np.rad2deg(roll):.4g}°, limit {limit:g}°"
         return None
+
+
+class _NotFinite(ArithmeticError):
+    """The motion has left the numbers."""
+
+
+def _require_finite(*values: FloatArray) -> None:
+    if not all(np.isfinite(value).all() for value in values):
+        raise _NotFinite
 
 
 class Record:
@@ -77,6 +92,7 @@ def ramp_factor(time: float, ramp: float) -> float:
     return 1.0 if time >= ramp else 0.5 * (1.0 - float(np.cos(np.pi * time / ramp)))
 
 
+@np.errstate(over="ignore", invalid="ignore")  # a motion that overflows has diverged, and is told so
 def march(
     equations: EquationsOfMotion,
     displacement: FloatArray,
@@ -99,28 +115,41 @@ def march(
     try:
         for step in range(steps + 1):
             start = step * time_step
-            past = {fraction: radiation.past(memory, fraction) for fraction in (0.0, 0.5, 1.0)}
-
-            def at(
-                fraction: float, displacement: FloatArray, velocity: FloatArray
-            ) -> tuple[FloatArray, FloatArray]:
-                time = start + fraction * time_step  # noqa: B023 - called within this step only
-                instant = Instant(time, ramp_factor(time, ramp), displacement, velocity)
-                return equations.evaluate(instant, past[fraction])  # noqa: B023
-
-            first, loads = at(0.0, displacement, velocity)
+            rates = _rates(equations, memory, start, time_step, ramp)
+            first, loads = rates(0.0, displacement, velocity)
+            _require_finite(first, loads)
             record.add(displacement, velocity, first, loads)
             if step == steps:
                 break
-            displacement, velocity = rk4_step(at, first, displacement, velocity, time_step)
-            ended = limits.exceeded(displacement)
+            before = displacement
+            displacement, velocity = rk4_step(rates, first, displacement, velocity, time_step)
+            _require_finite(displacement, velocity)
+            ended = limits.exceeded(displacement, before)
             if ended is not None:
                 record.outcome, cause = ended
                 record.detail = f"{cause} at t = {start + time_step:.6g} s"
                 break
             memory = radiation.remember(memory, displacement, velocity)
-            if progress is not None and step % 25 == 0:
+            if progress is not None and step % STEPS_BETWEEN_PROGRESS == 0:
                 progress(start, steps * time_step)
+    except _NotFinite:
+        record.outcome = "diverged"
+        record.detail = f"the motion is no longer finite at t = {start + time_step:.6g} s"
     except KeyboardInterrupt:
         record.outcome, record.detail = "interrupted", f"stopped by the user at t = {start:.6g} s"
     return record
+
+
+def _rates(
+    equations: EquationsOfMotion, memory: FloatArray, start: float, time_step: float, ramp: float
+) -> Rates:
+    """Acceleration (6,) and loads at a fraction of the step that begins at `start` [s]."""
+    past = {fraction: equations.radiation.past(memory, fraction) for fraction in (0.0, 0.5, 1.0)}
+
+    def at(fraction: float, displacement: FloatArray, velocity: FloatArray) -> tuple[FloatArray, FloatArray]:
+        _require_finite(displacement, velocity)
+        time = start + fraction * time_step
+        instant = Instant(time, ramp_factor(time, ramp), displacement, velocity)
+        return equations.evaluate(instant, past[fraction])
+
+    return at

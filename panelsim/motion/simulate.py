@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from panelsim.conventions import FloatArray
+from panelsim.conventions import Dof, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.diffraction import beyond_resolution, diffraction_load
@@ -70,7 +70,8 @@ def simulate(
     before = clock.process_time()
     loads = _pressure_loads(ship, components, speed, model, stretching)
     loads.append(_diffraction(ship, components, speed, database))
-    loads.append(Supplementary() if supplementary is None else supplementary)
+    supplementary = Supplementary() if supplementary is None else supplementary
+    loads.append(supplementary)
     equations = EquationsOfMotion(ship.inertia, loads, Radiation(database, speed, time_step))
     # The first evaluation compiles the kernel; its time is no part of the time loop.
     for load in loads:
@@ -110,7 +111,11 @@ def simulate(
         seed=seed,
         cpu_seconds=loop,
         jit_seconds=compiled - before,
-        notes=[*notes, *_notes(components, speed, ramp + duration, database, ship.gravity)],
+        notes=[
+            *notes,
+            *_notes(components, speed, ramp + duration, database, ship.gravity),
+            *_course_note(speed, database, supplementary),
+        ],
     )
 
 
@@ -165,6 +170,17 @@ def _notes(
             " a longer run adds little to its statistics."
         )
     return notes
+
+
+def _course_note(speed: float, database: HydroDatabase, supplementary: Supplementary) -> list[str]:
+    """Say where nothing holds the ship on its course: the Munk moment U² A22(0) per radian turns it."""
+    munk = speed**2 * float(database.added_mass_zero[Dof.SWAY, Dof.SWAY])
+    if supplementary.stiffness_matrix[Dof.YAW, Dof.YAW] > munk or munk == 0.0:
+        return []
+    return [
+        f"No supplementary yaw stiffness over {munk:.2g} N m/rad holds the ship on its course: at this speed"
+        " a bare hull turns broadside by itself (Munk moment)."
+    ]
 
 
 def _require_run(

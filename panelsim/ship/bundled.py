@@ -9,6 +9,9 @@ from panelsim.ship.ship import Ship
 
 # A mesh like the medium one of TM 2003-190 Table 3 has some 800 panels below the waterline.
 WET_PANELS_BY_DEFAULT = 800
+# Each panelling is a few hundred times closer to the waterline at rest than the one before.
+MOST_PANELLINGS = 8
+SETTLED = 1e-10  # of the length
 
 
 def default_panel_area(form: HullForm) -> float:
@@ -61,7 +64,11 @@ def load_ship(
         )
 
     ship = afloat(draft, stern)
-    # A mass moves the waterline off the panel edges: panel the hull again to where it came to rest.
-    for _ in range(2 if mass is not None else 0):
-        ship = afloat(ship.draft, ship.trim_by_stern)
+    # A mass moves the waterline off the panel edges: panel the hull again until it rests on them.
+    for _ in range(MOST_PANELLINGS if mass is not None else 0):
+        moved = abs(ship.draft - draft) + abs(ship.trim_by_stern - stern)
+        if moved < SETTLED * form.length_pp:
+            break
+        draft, stern = ship.draft, ship.trim_by_stern
+        ship = afloat(draft, stern)
     return ship
