@@ -1,17 +1,22 @@
 """The tables and keys of a case file, and what each may hold."""
 
-import difflib
-from collections.abc import Sequence
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
-from panelsim.conventions import DOF_NAMES, STANDARD_GRAVITY, FloatArray
-from panelsim.errors import PanelsimError
+from panelsim.conventions import STANDARD_GRAVITY, FloatArray
 
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+Degrees = Annotated[float, Field(ge=-360, le=360)]
+Frequency = Annotated[float, Field(ge=0.01, le=100)]  # rad/s: from far above any swell to ripples
+Period = Annotated[float, Field(ge=0.06, le=630)]  # s: the same span
+
+# A run keeps some 400 bytes a step.
+MOST_STEPS = 2_000_000
+MOST_FREQUENCIES = 5000
 
 
 class Section(BaseModel):
@@ -21,18 +26,29 @@ class Section(BaseModel):
 
 
 class MeshSection(Section):
-    """[ship.mesh]: unit and axes of a mesh file."""
+    """[ship.mesh]: unit and axes of a mesh file, as for `read_mesh`."""
 
-    length_unit: str | Positive
+    length_unit: str | float
     up: str
     forward: str
     origin: Annotated[list[Finite], Field(min_length=3, max_length=3)] = [0.0, 0.0, 0.0]
+    symmetry: Literal["centreline"] | None = None
+
+    @field_validator("length_unit", mode="plain")
+    @classmethod
+    def _unit(cls, value: Any) -> str | float:
+        """A union of types would be told to the user as two faults."""
+        if isinstance(value, str):
+            return value
+        if isinstance(value, bool) or not isinstance(value, float | int):
+            raise ValueError("neither a unit nor the metres in one file unit")
+        return float(value)
 
 
 class ShipSection(Section):
     """[ship]: a hull and, where it differs from the hull's particulars, its loading."""
 
-    hull: str
+    hull: Annotated[str, Field(min_length=1)]
     panel_area: Positive | None = None  # m2
     mesh: MeshSection | None = None
     draft: Positive | None = None  # m, at midships
@@ -43,30 +59,30 @@ class ShipSection(Section):
     gyradius_roll: Positive | None = None  # m
     gyradius_pitch: Positive | None = None
     gyradius_yaw: Positive | None = None
-    water_density: Positive | None = None  # kg/m3
-    gravity: Positive = STANDARD_GRAVITY  # m/s2
+    water_density: Annotated[float, Field(ge=900, le=1100)] | None = None  # kg/m3
+    gravity: Annotated[float, Field(ge=9.7, le=9.9)] = STANDARD_GRAVITY  # m/s2
 
 
 class HydrodynamicsSection(Section):
     """[hydrodynamics]: how coefficients are computed, or the file that holds them."""
 
     method: Literal["bem"] = "bem"
-    file: str | None = None
+    file: Annotated[str, Field(min_length=1)] | None = None
 
 
 class FrequencyGrid(Section):
     """Evenly spaced wave frequencies, both ends included [rad/s]."""
 
-    start: Positive
-    stop: Positive
+    start: Frequency
+    stop: Frequency
     step: Positive
 
     @model_validator(mode="after")
     def _rises(self) -> "FrequencyGrid":
         if self.stop <= self.start:
             raise ValueError("stop is not above start")
-        if (self.stop - self.start) / self.step > 5000:
-            raise ValueError("the step is too small: more than 5000 frequencies")
+        if (self.stop - self.start) / self.step > MOST_FREQUENCIES:
+            raise ValueError(f"the step is too small: more than {MOST_FREQUENCIES} frequencies")
         return self
 
     def values(self) -> FloatArray:
@@ -79,17 +95,17 @@ class SeawaySection(Section):
 
     kind: Literal["random", "regular", "calm"]
     spectrum: Literal["bretschneider"] = "bretschneider"
-    significant_wave_height: Positive | None = None  # m
-    peak_period: Positive | None = None  # s
+    significant_wave_height: Annotated[float, Field(gt=0, le=50)] | None = None  # m
+    peak_period: Period | None = None  # s
     frequencies: FrequencyGrid | None = None  # rad/s
-    seed: Annotated[int, Field(ge=0)] = 1
+    seed: Annotated[int, Field(ge=0, lt=2**63)] = 1
     minimum_energy: Annotated[float, Field(ge=0, le=1)] = 0.9
-    wave_height: Positive | None = None  # m, crest to trough
-    wave_frequency: Positive | None = None  # rad/s
-    wave_period: Positive | None = None  # s
-    phase_deg: Finite = 0.0
-    wave_heading_deg: Annotated[float, Field(ge=-360, le=360)] | None = None
-    sea_direction_deg: Annotated[float, Field(ge=-360, le=360)] | None = None
+    wave_height: Annotated[float, Field(gt=0, le=100)] | None = None  # m, crest to trough
+    wave_frequency: Frequency | None = None  # rad/s
+    wave_period: Period | None = None  # s
+    phase_deg: Degrees | None = None
+    wave_heading_deg: Degrees | None = None
+    sea_direction_deg: Degrees | None = None
     stretching: Literal["wheeler", "none"] = "wheeler"
 
     @model_validator(mode="after")
@@ -99,15 +115,13 @@ class SeawaySection(Section):
             "regular": ("wave_height",),
             "calm": (),
         }
+        own = {**needed, "regular": ("wave_height", "wave_frequency", "wave_period", "phase_deg")}
         missing = [name for name in needed[self.kind] if getattr(self, name) is None]
         if missing:
             raise ValueError(f"a {self.kind} seaway also needs {', '.join(missing)}")
         foreign = [
             name
-            for kind, names in {
-                "random": needed["random"],
-                "regular": ("wave_height", "wave_frequency", "wave_period"),
-            }.items()
+            for kind, names in own.items()
             for name in names
             if kind != self.kind and getattr(self, name) is not None
         ]
@@ -115,10 +129,12 @@ class SeawaySection(Section):
             raise ValueError(f"a {self.kind} seaway has no {', '.join(foreign)}")
         if self.kind == "regular" and (self.wave_frequency is None) == (self.wave_period is None):
             raise ValueError("a regular seaway needs wave_frequency or wave_period, one of them")
-        if self.kind != "calm" and (self.wave_heading_deg is None) == (self.sea_direction_deg is None):
+        given = (self.wave_heading_deg is not None) + (self.sea_direction_deg is not None)
+        if given == 2 or (given == 0 and self.kind != "calm"):
             raise ValueError(
-                "give wave_heading_deg (relative to the ship: 0 following, 180 head) or sea_direction_deg"
-                " (compass direction the waves come from, with run.ship_heading_deg), one of them"
+                f"{'both' if given else 'neither'} of wave_heading_deg (relative to the ship: 0 following,"
+                " 180 head) and sea_direction_deg (compass direction the waves come from, with"
+                " run.ship_heading_deg) are given; give one"
             )
         return self
 
@@ -127,27 +143,45 @@ class RunSection(Section):
     """[run]: speed, model, time."""
 
     speed_knots: Annotated[float, Field(ge=0, le=60)]
-    ship_heading_deg: Annotated[float, Field(ge=-360, le=360)] | None = None
+    ship_heading_deg: Degrees | None = None
     model: Literal["nonlinear", "linear"] = "nonlinear"
     time_step: Annotated[float, Field(ge=1e-4, le=5)]  # s
     duration: Annotated[float, Field(gt=0, le=1e6)]  # s, after the ramp
     ramp: Annotated[float, Field(ge=0, le=1e5)] = 60.0  # s
     capsize_angle_deg: Annotated[float, Field(ge=0, le=180)] = 90.0
 
+    @model_validator(mode="after")
+    def _steps(self) -> "RunSection":
+        if self.duration < self.time_step:
+            raise ValueError(f"the duration of {self.duration:g} s is shorter than one time_step")
+        if self.steps > MOST_STEPS:
+            raise ValueError(f"{self.steps} time steps are more than the {MOST_STEPS} that one run may have")
+        return self
+
+    @property
+    def steps(self) -> int:
+        return round((self.ramp + self.duration) / self.time_step)
+
+
+class ByMotion(Section):
+    """A value for some of the six motions."""
+
+    surge: NotNegative | None = None
+    sway: NotNegative | None = None
+    heave: NotNegative | None = None
+    roll: NotNegative | None = None
+    pitch: NotNegative | None = None
+    yaw: NotNegative | None = None
+
+    def values(self) -> dict[str, float]:
+        return self.model_dump(exclude_none=True)
+
 
 class SupplementarySection(Section):
-    """[supplementary]: stiffness and damping by motion; what is given replaces the particulars' table."""
+    """[supplementary]: a table given here replaces that of the hull's particulars; an empty one is none."""
 
-    stiffness: dict[str, Annotated[float, Field(ge=0)]] | None = None
-    damping: dict[str, Annotated[float, Field(ge=0)]] | None = None
-
-    @model_validator(mode="after")
-    def _known_motions(self) -> "SupplementarySection":
-        for table in (self.stiffness or {}, self.damping or {}):
-            for name in table:
-                if name not in DOF_NAMES:
-                    raise ValueError(f"{name} is no motion; the motions are {', '.join(DOF_NAMES)}")
-        return self
+    stiffness: ByMotion | None = None
+    damping: ByMotion | None = None
 
 
 class CaseFile(Section):
@@ -159,35 +193,11 @@ class CaseFile(Section):
     run: RunSection
     supplementary: SupplementarySection = SupplementarySection()
 
-
-def readable(error: ValidationError, path: str) -> PanelsimError:
-    """Pydantic's list of faults as one message, with the nearest known key for an unknown one."""
-    faults = []
-    for fault in error.errors():
-        keys = [str(part) for part in fault["loc"]]
-        where = ".".join(keys)
-        if fault["type"] == "extra_forbidden":
-            known = _known_keys(keys[:-1])
-            near = difflib.get_close_matches(keys[-1], known, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"known keys: {', '.join(known)}"
-            faults.append(f"{where} is unknown; {hint}")
-        elif fault["type"] == "missing":
-            faults.append(f"{where} is missing")
-        else:
-            message = fault["msg"].removeprefix("Value error, ")
-            faults.append(
-                f"{where}: {message}"
-                + ("" if fault["type"] == "value_error" else f", got {fault['input']!r}")
+    @model_validator(mode="after")
+    def _course(self) -> "CaseFile":
+        if self.seaway.sea_direction_deg is not None and self.run.ship_heading_deg is None:
+            raise ValueError(
+                "seaway.sea_direction_deg is a compass direction and needs the ship's course:"
+                " set run.ship_heading_deg, or give seaway.wave_heading_deg (relative to the ship) instead"
             )
-    what = f"The case file {path} has {'a fault' if len(faults) == 1 else f'{len(faults)} faults'}"
-    return PanelsimError(what, got="\n       ".join(faults))
-
-
-def _known_keys(table: Sequence[str]) -> list[str]:
-    """The keys of the (nested) table of the case file."""
-    model: type[BaseModel] = CaseFile
-    for name in table:
-        annotation = model.model_fields[name].annotation
-        candidates = [annotation, *getattr(annotation, "__args__", ())]
-        model = next(c for c in candidates if isinstance(c, type) and issubclass(c, BaseModel))
-    return sorted(model.model_fields)
+        return self

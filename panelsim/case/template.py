@@ -1,6 +1,7 @@
 """A commented case file to start from."""
 
-from panelsim.hull.form import HullForm
+from panelsim.conventions import KNOT
+from panelsim.hull.form import HullForm, load_hull
 from panelsim.ship.bundled import default_panel_area
 
 
@@ -12,6 +13,9 @@ def case_template(form: HullForm) -> str:
     height = round(0.021 * 1.561 * peak_period**2, 2)
     scale = (120.0 / form.length_pp) ** 0.5
     peak = 6.2832 / peak_period
+    froude_quarter = 0.25 * (9.81 * form.length_pp) ** 0.5 / KNOT
+    # A box or a sphere is no ship under way.
+    speed = min(15.0, round(froude_quarter, 1)) if form.length_pp > 3.0 * form.beam else 0.0
     return f"""\
 # {form.title}
 # Check this file with `panelsim check`, run it with `panelsim run`.
@@ -40,14 +44,35 @@ stretching = "wheeler"          # wheeler | none
 seed = 1
 
 [run]
-speed_knots = {min(15.0, round(0.25 * (9.81 * form.length_pp) ** 0.5 / 0.5144, 1)):g}
+speed_knots = {speed:g}
 model = "nonlinear"             # nonlinear | linear
 time_step = {float(f"{0.2 / scale:.1g}"):g}                 # s
 duration = 600                  # s, after the ramp
 ramp = 60                       # s over which the waves grow
 capsize_angle_deg = 90          # end the run there; 0 = never
 
-# [supplementary]               # the hull's particulars give the defaults
-# stiffness = {{ surge = 5e5, sway = 1e6, yaw = 2e9 }}      # N/m, N m/rad
-# damping = {{ surge = 1e6, sway = 2e6, roll = 2e7 }}       # N/(m/s), N m/(rad/s)
+{_supplementary(form)}"""
+
+
+def _supplementary(form: HullForm) -> str:
+    """[supplementary]: the hull's own terms as comments, or some that hold it on its course."""
+    if any(form.supplementary.values()):
+        terms, mark = form.supplementary, "# "
+        source = "The hull's own terms; a table that is given here replaces one of them."
+    else:
+        dimensions = {"length": form.length_pp, "beam": form.beam, "draft": form.draft}
+        terms, mark = load_hull("halifax").scaled(**dimensions).supplementary, ""
+        source = (
+            "None are known for this hull: those of HALIFAX (TM 2003-190 section 8) by Froude's law,\n"
+            "# lest it turn beam to the waves."
+        )
+    stiffness, damping = (
+        ", ".join(f"{motion} = {value:.3g}" for motion, value in terms[kind].items())
+        for kind in ("stiffness", "damping")
+    )
+    return f"""\
+# {source}
+{mark}[supplementary]
+{mark}stiffness = {{ {stiffness} }}   # N/m, N m/rad
+{mark}damping = {{ {damping} }}   # N/(m/s), N m/(rad/s)
 """

@@ -52,5 +52,7 @@ def _matching(path: Path, ship: Ship) -> HydroDatabase | None:
 
 
 def _cache_key(ship: Ship) -> str:
+    """Hash of what coefficients depend on, without the longitudinal CG, which moves with the panelling."""
     identity = {k: v if isinstance(v, str) else f"{v:.4g}" for k, v in ship.identity().items()}
+    del identity["center_of_gravity_x"]
     return hashlib.sha256(json.dumps([FORMAT, identity], sort_keys=True).encode()).hexdigest()[:20]

@@ -2,12 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Self
 
 import numpy as np
 
 from panelsim.conventions import DOF_NAMES, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.loads.load import Instant
+from panelsim.ship.ship import Ship
 
 
 @dataclass(frozen=True)
@@ -41,6 +43,11 @@ class Supplementary:
 
     _stiffness: FloatArray = field(init=False, repr=False, compare=False)
     _damping: FloatArray = field(init=False, repr=False, compare=False)
+
+    @classmethod
+    def of(cls, ship: Ship) -> Self:
+        """The terms that the particulars of the ship's hull give; none where no hull form is known."""
+        return cls() if ship.form is None else cls(**ship.form.supplementary)
 
     @property
     def stiffness_matrix(self) -> FloatArray:

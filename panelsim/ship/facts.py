@@ -1,17 +1,22 @@
 """The facts of a ship at rest that people ask for, beside the published ones."""
 
 from dataclasses import asdict, dataclass
+from typing import Any
 
+import numpy as np
+
+from panelsim.hull.form import HullForm
 from panelsim.ship.ship import Ship
 
 
 @dataclass(frozen=True)
 class Published:
-    """A published value, ours, and the relative difference."""
+    """A published value, ours, and the difference, ours less published; None where we have none."""
 
     published: float
-    here: float
-    difference: float
+    here: float | None
+    difference: float | None
+    relative_difference: float | None
 
 
 @dataclass(frozen=True)
@@ -37,23 +42,16 @@ class ShipFacts:
     gm_longitudinal: float
     water_density: float
     published: dict[str, Published]
+    warnings: tuple[str, ...]
 
-    def as_dict(self) -> dict[str, object]:
+    def as_dict(self) -> dict[str, Any]:
         """Plain values, for JSON."""
         return asdict(self)
 
 
 def ship_facts(ship: Ship) -> ShipFacts:
-    """Collect the facts of a ship at rest."""
+    """Collect the facts of a ship at rest; published values only for the loading they were published for."""
     rest = ship.hydrostatics
-    here = {
-        "displacement": ship.mass,
-        "gm_transverse": rest.gm_transverse,
-        "gm_longitudinal": rest.gm_longitudinal,
-        "displaced_volume": rest.displaced_volume,
-        "center_of_buoyancy_height": float(rest.center_of_buoyancy[2]),
-    }
-    known = ship.form.published if ship.form is not None else {}
     return ShipFacts(
         name=ship.name,
         draft=ship.draft,
@@ -73,9 +71,56 @@ def ship_facts(ship: Ship) -> ShipFacts:
         gm_transverse=rest.gm_transverse,
         gm_longitudinal=rest.gm_longitudinal,
         water_density=ship.water_density,
-        published={
-            name: Published(value, here[name], here[name] / value - 1.0)
-            for name, value in known.items()
-            if name in here and value
-        },
+        published=_beside_published(ship),
+        warnings=ship_warnings(ship),
     )
+
+
+def ship_warnings(ship: Ship) -> tuple[str, ...]:
+    """What is allowed but unusual about the loading, one sentence each."""
+    rest = ship.hydrostatics
+    warnings = [
+        f"The {axis} metacentric height is {gm:.3g} m: the ship does not float upright by itself,"
+        " it heels and may capsize."
+        for axis, gm in (("transverse", rest.gm_transverse), ("longitudinal", rest.gm_longitudinal))
+        if gm <= 0.0
+    ]
+    x, y, z = np.abs(ship.vertices).max(axis=0)
+    reach = {"roll": np.hypot(y, z), "pitch": np.hypot(x, z), "yaw": np.hypot(x, y)}
+    warnings += [
+        f"The {name} gyradius of {radius:g} m reaches beyond the hull, {reach[name]:.3g} m from its axis."
+        for name, radius in zip(reach, ship.gyradii, strict=True)
+        if radius > reach[name]
+    ]
+    return tuple(warnings)
+
+
+def _beside_published(ship: Ship) -> dict[str, Published]:
+    form = ship.form
+    if form is None or not _floats_as_stated(ship, form):
+        return {}
+    rest = ship.hydrostatics
+    here = {
+        "mass": ship.mass,
+        "displaced_volume": rest.displaced_volume,
+        "center_of_buoyancy_x": float(rest.center_of_buoyancy[0]),
+        "center_of_buoyancy_z": float(rest.center_of_buoyancy[2]),
+        "gm_transverse": rest.gm_transverse,
+        "gm_longitudinal": rest.gm_longitudinal,
+    }
+    return {name: _compared(value, here.get(name)) for name, value in form.published.items()}
+
+
+def _compared(published: float, here: float | None) -> Published:
+    if here is None:
+        return Published(published, None, None, None)
+    difference = here - published
+    return Published(published, here, difference, difference / abs(published) if published else None)
+
+
+def _floats_as_stated(ship: Ship, form: HullForm) -> bool:
+    """Whether the ship floats and is loaded as the particulars of its hull say."""
+    loading = form.loading
+    stated = (form.draft, form.trim_by_stern, loading.center_of_gravity_height, loading.water_density)
+    here = (ship.draft, ship.trim_by_stern, ship.center_of_gravity[2], ship.water_density)
+    return np.allclose(here, stated, rtol=1e-9, atol=1e-9)

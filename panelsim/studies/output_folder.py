@@ -5,21 +5,27 @@ from pathlib import Path
 
 from panelsim.errors import PanelsimError
 
-OUTPUT_FILES = ("history.nc", "statistics.json", "report.md", "run.rrd")
 
+def refuse_occupied_folder(folder: Path, *, force: bool) -> None:
+    """Raise PanelsimError where the folder is a file, or holds files already and `force` is not set.
 
-def prepare_output_folder(folder: Path, *, force: bool) -> None:
-    """Make the folder and make sure that it can be written to, before anything long is begun.
-
-    Raises PanelsimError where it holds files already and `force` is not set (with it only files that
-    panelsim writes are replaced), and where it cannot be made or written.
+    With `force` only files that panelsim writes are replaced.
     """
+    if folder.exists() and not folder.is_dir():
+        raise PanelsimError("The output folder is a file", got=folder, remedy="choose another place")
     if folder.is_dir() and any(folder.iterdir()) and not force:
         raise PanelsimError(
             "The output folder is not empty",
             got=folder,
             remedy="choose another with --out, or use --force to replace the files that panelsim writes",
         )
+
+
+def make_output_folder(folder: Path) -> None:
+    """Make the folder and make sure that it can be written to, before anything long is begun.
+
+    Raises PanelsimError where it cannot.
+    """
     try:
         folder.mkdir(parents=True, exist_ok=True)
         probe = folder / f".panelsim-{os.getpid()}"
@@ -29,5 +35,5 @@ def prepare_output_folder(folder: Path, *, force: bool) -> None:
         raise PanelsimError(
             "The output folder cannot be written",
             got=f"{folder} ({error.strerror})",
-            remedy="choose another --out",
+            remedy="choose another place",
         ) from error

@@ -15,9 +15,13 @@ from panelsim.motion.history import History
 from panelsim.motion.march import Progress as RunProgress
 from panelsim.motion.simulate import simulate
 from panelsim.results.statistics import Statistics, statistics
-from panelsim.studies.output_folder import OUTPUT_FILES, prepare_output_folder
+from panelsim.studies.output_folder import make_output_folder, refuse_occupied_folder
 from panelsim.view.recording import record
 from panelsim.view.report import report
+
+FILES = ("history.nc", "statistics.json", "report.md", "run.rrd")
+# They would be taken for those of the new run.
+MADE_BY_EXPORT = ("motions.csv", "loads.csv")
 
 
 @dataclass(frozen=True)
@@ -26,7 +30,8 @@ class RunOutput:
 
     history: History
     statistics: Statistics
-    files: tuple[Path, ...]
+    folder: Path
+    files: tuple[str, ...]
     seconds: dict[str, float]
 
 
@@ -42,11 +47,14 @@ def run_case(
 
     The two callbacks are told the progress of the coefficients (done, total) and of the run (seconds
     done, seconds in all). A run that ends early leaves all its files too; its history says why.
+    Raises PanelsimError for a folder that is not empty, unless `force`, and for a case that cannot
+    be run, both before anything is written.
     """
-    prepare_output_folder(folder, force=force)
+    refuse_occupied_folder(folder, force=force)
     seconds: dict[str, float] = {}
     with _timed(seconds, "ship and waves"):
-        ship, seaway = case.ship, case.seaway
+        ship, seaway, supplementary = case.ship, case.seaway, case.supplementary
+    make_output_folder(folder)
     with _timed(seconds, "coefficients"):
         database = case.database(on_coefficients)
     run = case.file.run
@@ -61,24 +69,25 @@ def run_case(
             model=run.model,
             ramp=run.ramp,
             stretching=case.file.seaway.stretching,
-            supplementary=case.supplementary,
+            supplementary=supplementary,
             capsize_angle=float(np.deg2rad(run.capsize_angle_deg)),
             progress=on_run,
             case=case.resolved(),
             seed=case.file.seaway.seed if case.file.seaway.kind == "random" else None,
             notes=case.warnings(),
         )
-    paths = [folder / name for name in OUTPUT_FILES]
     with _timed(seconds, "history and statistics"):
-        history.save(paths[0], overwrite=True)
+        for name in MADE_BY_EXPORT:
+            (folder / name).unlink(missing_ok=True)
+        history.save(folder / "history.nc", overwrite=True)
         result = statistics(history)
-        with replacing(paths[1]) as beside:
+        with replacing(folder / "statistics.json") as beside:
             beside.write_text(result.to_json(), encoding="utf-8")
     with _timed(seconds, "report"):
         report(history, folder)
     with _timed(seconds, "recording"):
-        record(history, paths[3])
-    return RunOutput(history, result, tuple(paths), seconds)
+        record(history, folder / "run.rrd")
+    return RunOutput(history, result, folder, FILES, seconds)
 
 
 @contextmanager

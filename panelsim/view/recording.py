@@ -150,7 +150,7 @@ def _send_facts(stream: "rr.RecordingStream", history: History) -> None:
     stream.send_recording_name(f"{history.ship_name}, {attrs['model']}, {attrs['outcome']}")
     facts = {name: attrs[name] for name in ("panelsim_version", "model", "speed", "time_step", "ramp")}
     facts |= {"ship": history.ship_name, "panels": len(history.panels), "outcome": history.outcome}
-    facts |= {"seed": attrs.get("seed", "none"), "case": attrs["case"]}
+    facts |= {"seed": str(attrs.get("seed", "none")), "case": attrs["case"]}
     stream.send_property("run", rr.AnyValues(**facts))
     stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
     table = statistics(history)

@@ -1,0 +1,137 @@
+"""What is wrong with a case file, in the words of its tables and keys."""
+
+import difflib
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from panelsim.case.schema import CaseFile
+from panelsim.errors import PanelsimError
+
+TYPES = {
+    "float_type": "a number",
+    "int_type": "a whole number",
+    "finite_number": "a finite number",
+    "string_type": 'text in quotes, "…"',
+    "string_too_short": "a name",
+    "model_type": "a table, { key = value, … }",
+    "model_attributes_type": "a table, { key = value, … }",
+    "list_type": "a list in brackets, […]",
+    "too_short": "three numbers",
+    "too_long": "three numbers",
+}
+LIMITS = {"gt": "more than", "ge": "at least", "lt": "less than", "le": "at most"}
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One fault: what is wrong, and the other parts of a PanelsimError."""
+
+    what: str
+    got: str | None = None
+    allowed: str | None = None
+    remedy: str | None = None
+
+    def line(self) -> str:
+        parts = (self.got and f"got {self.got}", self.allowed and f"allowed {self.allowed}", self.remedy)
+        more = "; ".join(part for part in parts if part)
+        return f"{self.what}: {more}" if more else self.what
+
+
+def readable(error: ValidationError, source: str) -> PanelsimError:
+    """Pydantic's list of faults as one message, with the nearest known key for an unknown one."""
+    found = error.errors()
+    unknown = {path: _nearest(path) for path in (_path(f) for f in found if f["type"] == "extra_forbidden")}
+    faults = [
+        _unknown(_path(fault), unknown[_path(fault)]) if fault["type"] == "extra_forbidden" else _wrong(fault)
+        for fault in found
+        # A misspelt key is not missing as well.
+        if not (fault["type"] == "missing" and _path(fault) in unknown.values())
+    ]
+    if len(faults) == 1:
+        (fault,) = faults
+        return PanelsimError(
+            f"{source}: {fault.what}", got=fault.got, allowed=fault.allowed, remedy=fault.remedy
+        )
+    lines = "".join(f"\n    {fault.line()}" for fault in faults)
+    return PanelsimError(f"{source} has {len(faults)} faults", got=lines)
+
+
+def _path(fault: Any) -> tuple[str, ...]:
+    return tuple(str(part) for part in fault["loc"])
+
+
+def _unknown(path: tuple[str, ...], nearest: tuple[str, ...] | None) -> Fault:
+    *table, key = path
+    kind = "key" if table else "table or key"
+    place = f"[{'.'.join(table)}]" if table else "the case file"
+    known = ", ".join(_model(table).model_fields)
+    remedy = f"did you mean {'.'.join(nearest)}?" if nearest else f"remove {key}"
+    return Fault(f"{place} has no {kind} {key}", allowed=known, remedy=remedy)
+
+
+def _wrong(fault: Any) -> Fault:
+    where, kind, value = ".".join(_path(fault)), fault["type"], fault["input"]
+    if kind == "missing":
+        return Fault(f"{where} is missing")
+    if kind == "value_error":
+        message = fault["msg"].removeprefix("Value error, ")
+        return Fault(f"{where}: {message}" if where else message)
+    allowed = TYPES.get(kind) or _limit(fault.get("ctx", {})) or fault["msg"].removeprefix("Input should be ")
+    comma = isinstance(value, str) and re.fullmatch(r"[+-]?\d+,\d+", value)
+    remedy = "decimals are written with a point" if comma else None
+    what = f"{where} is not {allowed}" if kind in TYPES else f"{where} is out of range"
+    if kind == "literal_error":
+        what = f"{where} is not known"
+    return Fault(what, _shown(value), None if kind in TYPES else allowed, remedy)
+
+
+def _limit(context: dict[str, Any]) -> str | None:
+    """The limit that a number breaks."""
+    return next((f"{LIMITS[name]} {context[name]:g}" for name in LIMITS if name in context), None)
+
+
+def _shown(value: object) -> str:
+    """A value as the case file writes it."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f'"{value}"'
+    if isinstance(value, dict):
+        return "a table"
+    return str(value)
+
+
+def _nearest(path: tuple[str, ...]) -> tuple[str, ...] | None:
+    """The known key that an unknown one may stand for: near in its own table, or the same in another."""
+    *table, key = path
+    near = difflib.get_close_matches(key, list(_model(table).model_fields), n=1)
+    if near:
+        return (*table, near[0])
+    return next((known for known in _all_keys(CaseFile) if known[-1] == key), None)
+
+
+def _all_keys(model: type[BaseModel], table: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+    for name in model.model_fields:
+        yield (*table, name)
+        below = _table_model(model, name)
+        if below is not None:
+            yield from _all_keys(below, (*table, name))
+
+
+def _model(table: list[str]) -> type[BaseModel]:
+    """The model of a table of the case file, given by the keys that lead to it."""
+    model: type[BaseModel] = CaseFile
+    for name in table:
+        model = _table_model(model, name) or model
+    return model
+
+
+def _table_model(model: type[BaseModel], name: str) -> type[BaseModel] | None:
+    """The model of the table under a key, or None where the key holds a plain value."""
+    annotation = model.model_fields[name].annotation
+    candidates = [annotation, *getattr(annotation, "__args__", ())]
+    return next((c for c in candidates if isinstance(c, type) and issubclass(c, BaseModel)), None)

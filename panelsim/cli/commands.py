@@ -1,0 +1,261 @@
+"""The commands of the command line, and how each kind of end becomes an exit code."""
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import panelsim
+from panelsim.case import Case
+from panelsim.case.ship_section import is_mesh_file
+from panelsim.case.template import case_template
+from panelsim.cli.show import err, out, progress_bars, say, show_case, show_facts, show_result, warn
+from panelsim.errors import PanelsimError
+from panelsim.files import replacing
+from panelsim.hull.checks import check_mesh, require_sound
+from panelsim.hull.form import load_hull
+from panelsim.hull.particulars import FILE_NAME
+from panelsim.hull.readers import read_mesh
+from panelsim.hydro.database import HydroDatabase
+from panelsim.motion.history import History
+from panelsim.results.export import history_to_csv
+from panelsim.ship.bundled import load_ship
+from panelsim.ship.facts import ship_facts
+from panelsim.ship.ship import Ship
+from panelsim.studies.output_folder import make_output_folder, refuse_occupied_folder
+
+EXIT_BAD_INPUT = 2
+EXIT_ENDED_EARLY = 3
+EXIT_INTERRUPTED = 130
+
+app = typer.Typer(
+    help="Nonlinear panel-method, time-domain ship-motion solver.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+Force = Annotated[bool, typer.Option("--force", help="Replace files that panelsim writes.")]
+Overrides = Annotated[
+    list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Override, e.g. seaway.seed=7.")
+]
+
+
+def main() -> None:
+    """Run the command line; bad input ends in one message and exit code 2, never a traceback."""
+    try:
+        code = app(standalone_mode=False)
+    except PanelsimError as error:
+        code = _refuse(str(error))
+    except typer.TyperException as error:
+        # Its message is empty where the help has been printed already.
+        code = _refuse(error.format_message())
+    except OSError as error:
+        code = _refuse(f"{error.strerror or error}.\n  got: {error.filename or 'no file name'}")
+    except KeyboardInterrupt:
+        code = EXIT_INTERRUPTED
+    if code == EXIT_INTERRUPTED:
+        err.print("interrupted")
+    sys.exit(code)
+
+
+def _refuse(message: str) -> int:
+    if message:
+        err.print(f"error: {message}", markup=False)
+    return EXIT_BAD_INPUT
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        out.print(f"panelsim {panelsim.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    pass
+
+
+@app.command()
+def new(
+    name: Annotated[str, typer.Argument(help="Name of the case; NAME.toml is written.")],
+    ship: Annotated[str, typer.Option(help="A bundled hull, or a hull folder.")] = "halifax",
+) -> None:
+    """Write a commented case file to start from."""
+    path = Path(name)
+    if not path.name:
+        raise PanelsimError("The case has no name", got=f'"{name}"')
+    if path.suffix != ".toml":
+        path = path.with_name(f"{path.name}.toml")
+    if path.exists():
+        raise PanelsimError("The case file exists already", got=path, remedy="choose another name")
+    text = case_template(load_hull(ship))
+    with replacing(path) as beside:
+        beside.write_text(text, encoding="utf-8")
+    out.print(f"Wrote {path}. Next: panelsim check {path}, then panelsim run {path}", markup=False)
+
+
+@app.command()
+def check(
+    what: Annotated[Path, typer.Argument(help="A case file, or a mesh file with its unit and axes.")],
+    overrides: Overrides = None,
+    length_unit: Annotated[str | None, typer.Option(help="Mesh: m, mm, cm, ft or in.")] = None,
+    up: Annotated[str | None, typer.Option(help="Mesh: file axis that points up, x to -z.")] = None,
+    forward: Annotated[str | None, typer.Option(help="Mesh: file axis that points to the bow.")] = None,
+    symmetry: Annotated[
+        str | None, typer.Option(help='Mesh: "centreline" if the file holds one side of the hull.')
+    ] = None,
+    wave_length: Annotated[float | None, typer.Option(help="Mesh: shortest wave of the sea [m].")] = None,
+) -> None:
+    """Read a case or a mesh, say what it is and what is wrong with it; run nothing."""
+    if is_mesh_file(what):
+        _check_mesh(what, length_unit, up, forward, symmetry, wave_length)
+        return
+    case = Case.load(what, overrides or ())
+    show_facts(ship_facts(case.ship))
+    show_case(case)
+    warnings = case.warnings()
+    warn(warnings)
+    out.print("The case can be run; see the warnings." if warnings else "The case is sound.")
+
+
+def _check_mesh(
+    path: Path,
+    length_unit: str | None,
+    up: str | None,
+    forward: str | None,
+    symmetry: str | None,
+    wave_length: float | None,
+) -> None:
+    if length_unit is None or up is None or forward is None:
+        raise PanelsimError(
+            "A mesh file does not say its unit and axes",
+            got=path,
+            remedy="give all three, for example --length-unit m --up z --forward x",
+        )
+    mesh = read_mesh(path, length_unit=length_unit, up=up, forward=forward, symmetry=symmetry)
+    out.print(check_mesh(mesh, wave_length=wave_length).summary(), markup=False)
+    require_sound(mesh)
+
+
+@app.command()
+def run(
+    case_file: Annotated[Path, typer.Argument(help="Case file (TOML).")],
+    out_folder: Annotated[
+        Path | None, typer.Option("--out", help="Output folder; runs/CASE if not given.")
+    ] = None,
+    force: Force = False,
+    overrides: Overrides = None,
+) -> None:
+    """Run a case: history.nc, statistics.json, report.md with plots, run.rrd."""
+    from panelsim.studies.run_case import run_case  # brings matplotlib and rerun
+
+    case = Case.load(case_file, overrides or ())
+    folder = out_folder if out_folder is not None else Path("runs") / case.name
+    refuse_occupied_folder(folder, force=force)
+    warnings = case.warnings()
+    warn(warnings)
+    with progress_bars() as track:
+        result = run_case(
+            case,
+            folder,
+            force=force,
+            on_coefficients=track("hydrodynamic coefficients"),
+            on_run=track("run"),
+        )
+    show_result(result, known=warnings)
+    if result.history.outcome != "finished":
+        detail = result.statistics.outcome_detail
+        err.print(f"The run ended early: {result.history.outcome}, {detail}", markup=False)
+        raise typer.Exit(EXIT_ENDED_EARLY)
+
+
+@app.command()
+def hull(
+    what: Annotated[str, typer.Argument(help="A bundled hull, a hull folder or a case file.")],
+    panel_area: Annotated[float | None, typer.Option(help="Nominal panel area [m2].")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    export: Annotated[Path | None, typer.Option(help="Write the mesh: .stl .obj .ply .glb .gdf")] = None,
+) -> None:
+    """Panel a hull and print its particulars at rest, beside the published ones."""
+    ship = _ship_of(what, panel_area)
+    facts = ship_facts(ship)
+    if as_json:
+        sys.stdout.write(json.dumps(facts.as_dict(), indent=2, allow_nan=False) + "\n")
+    else:
+        show_facts(facts)
+        for sentence in ship.form.assumptions if ship.form is not None else ():
+            say(f"assumed: {sentence}")
+        warn(facts.warnings)
+    if export is not None:
+        ship.mesh.export(export)
+        err.print(f"Wrote {export}", markup=False)
+
+
+@app.command()
+def hydro(
+    what: Annotated[str, typer.Argument(help="A bundled hull, a hull folder or a case file.")],
+    output: Annotated[Path, typer.Option("-o", "--output", help="NetCDF file to write.")],
+    method: Annotated[str, typer.Option(help="bem (three-dimensional boundary elements).")] = "bem",
+    force: Force = False,
+) -> None:
+    """Compute the hydrodynamic coefficients of a ship and store them."""
+    if output.is_dir():
+        raise PanelsimError(
+            "The output is a folder", got=output, allowed="a file, for example coefficients.nc"
+        )
+    if output.exists() and not force:
+        raise PanelsimError("The file exists already", got=output, remedy="use --force to replace it")
+    ship = _ship_of(what)
+    make_output_folder(output.parent)
+    with progress_bars() as track:
+        database = HydroDatabase.compute(ship, method, progress=track("hydrodynamic coefficients"))
+    database.save(output)
+    top = database.frequencies.max()
+    out.print(f"Wrote {output}: {len(database.frequencies)} frequencies to {top:.2f} rad/s", markup=False)
+
+
+@app.command()
+def view(recordings: Annotated[list[Path], typer.Argument(help="Recordings (.rrd).")]) -> None:
+    """Open recordings in the rerun viewer."""
+    for path in recordings:
+        if not path.is_file() or path.suffix != ".rrd":
+            raise PanelsimError("There is no such recording", got=path, allowed="files ending in .rrd")
+    from panelsim.view.viewer import open_viewer  # brings rerun
+
+    raise typer.Exit(open_viewer(recordings))
+
+
+@app.command()
+def export(
+    folder: Annotated[Path, typer.Argument(help="Output folder of a run.")],
+    csv: Annotated[bool, typer.Option("--csv", help="Write motions.csv and loads.csv.")] = False,
+) -> None:
+    """Turn a saved history into other formats."""
+    if not csv:
+        raise PanelsimError("No format was asked for", allowed="--csv")
+    for path in history_to_csv(History.load(folder / "history.nc"), folder):
+        out.print(f"Wrote {path}", markup=False)
+
+
+def _ship_of(what: str, panel_area: float | None = None) -> Ship:
+    """The ship of a bundled hull, a hull folder or a case file."""
+    path = Path(what)
+    if is_mesh_file(path):
+        raise PanelsimError(
+            "A mesh file does not say how the ship floats",
+            got=path,
+            allowed="a bundled hull, a hull folder or a case file",
+            remedy="write a case file with [ship.mesh] and a loading; `panelsim check` checks the mesh alone",
+        )
+    if path.name == FILE_NAME:
+        return load_ship(path.parent, panel_area)
+    if path.suffix == ".toml":
+        return Case.load(path, [] if panel_area is None else [f"ship.panel_area={panel_area!r}"]).ship
+    return load_ship(what, panel_area)

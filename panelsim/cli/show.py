@@ -1,0 +1,164 @@
+"""What the command line prints: facts of a ship, of a case, of a run, on 80 columns."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+import numpy as np
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from panelsim.case import Case
+from panelsim.results.tables import statistics_table
+from panelsim.seaway.components import repeat_time
+from panelsim.ship.facts import Published, ShipFacts
+
+if TYPE_CHECKING:  # it brings matplotlib and rerun
+    from panelsim.studies.run_case import RunOutput
+
+out = Console(highlight=False)
+err = Console(stderr=True, highlight=False, soft_wrap=True)
+
+
+def say(text: str) -> None:
+    """Print a sentence, wrapped to the terminal."""
+    out.print(text, markup=False)
+
+
+def warn(sentences: Iterable[str]) -> None:
+    """Print warnings on standard error."""
+    for sentence in sentences:
+        err.print(f"warning: {sentence}", markup=False)
+
+
+@contextmanager
+def progress_bars() -> Iterator[Callable[[str], Callable[[float, float], None]]]:
+    """Bars on a terminal, silence elsewhere; yields a maker of callbacks (done, total)."""
+    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=err, transient=True, disable=not err.is_terminal) as progress:
+
+        def track(label: str) -> Callable[[float, float], None]:
+            task = progress.add_task(label, visible=False)
+
+            def update(done: float, total: float) -> None:
+                progress.update(task, completed=done, total=total, visible=done < total)
+
+            return update
+
+        yield track
+
+
+def show_facts(facts: ShipFacts) -> None:
+    """The particulars of a ship at rest, beside the published ones."""
+    cb, cf = facts.center_of_buoyancy, facts.center_of_flotation
+    rows = {
+        "panels wet, total": f"{facts.panels_wet}, {facts.panels_total}",
+        "mass": f"{facts.mass / 1000:.6g} t in water of {facts.water_density:g} kg/m3",
+        "displaced volume": f"{facts.displaced_volume:.6g} m3",
+        "draft, trim by stern": f"{facts.draft:.4g} m, {facts.trim_by_stern:.4g} m",
+        "centre of gravity": _forward_and_up(facts.center_of_gravity),
+        "centre of buoyancy": _forward_and_up(cb),
+        "centre of flotation": f"{_metres(cf[0])} forward of midships",
+        "waterline length, beam": f"{facts.waterline_length:.5g} m, {facts.waterline_beam:.5g} m",
+        "waterplane, wetted surface": f"{facts.waterplane_area:.6g} m2, {facts.wetted_surface:.6g} m2",
+        "block coefficient": f"{facts.block_coefficient:.4f}",
+        "GM transverse, longitudinal": f"{facts.gm_transverse:.4g} m, {facts.gm_longitudinal:.4g} m",
+    }
+    _show_rows(f"{facts.name}, at rest in calm water", rows)
+    if facts.published:
+        _show_published(facts.published)
+
+
+def _forward_and_up(point: tuple[float, ...]) -> str:
+    return f"{_metres(point[0])} forward of midships, {_metres(point[2])} above the baseline"
+
+
+def _metres(value: float) -> str:
+    # A micrometre is rounding, and there is no -0.
+    return f"{round(value, 6) + 0.0:.4g} m"
+
+
+def _show_published(published: Mapping[str, Published]) -> None:
+    table = Table("SI", "published", "here", "difference", box=None, padding=(0, 2))
+    for name, entry in published.items():
+        here = "–" if entry.here is None else f"{entry.here:.6g}"
+        relative = entry.relative_difference
+        difference = "not compared" if relative is None else f"{100 * relative:+.2f} %"
+        table.add_row(name.replace("_", " "), f"{entry.published:.6g}", here, difference)
+    out.print(table)
+
+
+def _show_rows(title: str, rows: Mapping[str, str]) -> None:
+    out.print(title, style="bold")
+    table = Table(show_header=False, box=None, padding=(0, 2))
+    for name, value in rows.items():
+        table.add_row(name, value)
+    out.print(table)
+
+
+def show_case(case: Case) -> None:
+    """What a case will run: waves, supplementary terms, coefficients, time."""
+    run = case.file.run
+    database = case.stored_database()
+    source = (
+        "of the ship, stored or computed when it is run"
+        if database is None
+        else f"{case.file.hydrodynamics.file}, {len(database.frequencies)} frequencies"
+    )
+    rows = {
+        "sea": _sea(case),
+        "supplementary stiffness": _by_motion(case.supplementary.stiffness),
+        "supplementary damping": _by_motion(case.supplementary.damping),
+        "coefficients": source,
+        "run": f"{run.model}, {run.speed_knots:g} knots, ramp {run.ramp:g} s and {run.duration:g} s,"
+        f" {run.steps} steps of {run.time_step:g} s",
+    }
+    _show_rows(case.name, rows)
+
+
+def _sea(case: Case) -> str:
+    components = case.seaway.components
+    if not components.count:
+        return "calm water"
+    heading = f"heading {np.rad2deg(case.wave_heading):.4g}° (0° following, 180° head)"
+    if components.count == 1:
+        height, omega = 2 * components.amplitude[0], components.frequency[0]
+        return f"regular waves, height {height:.4g} m, {omega:.4g} rad/s, {heading}"
+    run = case.file.run
+    again = repeat_time(components, case.speed, run.ramp + run.duration, gravity=case.ship.gravity)
+    repeat = "does not repeat within the run" if again is None else f"repeats after {again:.0f} s"
+    significant = 4 * components.variance**0.5
+    return (
+        f"random, seed {case.file.seaway.seed}, {components.count} components, 4 RMS {significant:.4g} m,"
+        f" {heading}; as the ship meets it, it {repeat}"
+    )
+
+
+def _by_motion(values: Mapping[str, float]) -> str:
+    return ", ".join(f"{motion} {value:g}" for motion, value in values.items()) or "none"
+
+
+def show_result(result: "RunOutput", known: Sequence[str]) -> None:
+    """The statistics of a run, what it cost, its notes but the `known` ones, where its files are."""
+    statistics = result.statistics
+    if statistics.duration > 0.0:
+        out.print(statistics_table(statistics))
+    if statistics.note:
+        say(statistics.note)
+    factor = statistics.realtime_factor
+    if factor:
+        say(
+            f"Time loop: {statistics.simulated_seconds:g} s of sea in {statistics.cpu_seconds:.2f} s of CPU,"
+            f" {factor:.0f} times faster than real time."
+        )
+    stages = ", ".join(f"{name} {seconds:.1f}" for name, seconds in result.seconds.items())
+    say(f"CPU seconds by stage: {stages} (of it compilation {statistics.jit_seconds:.1f}).")
+    for note in result.history.notes:
+        if note not in known:
+            say(f"note: {note}")
+    sizes = ((result.folder / name).stat().st_size / 1e6 for name in result.files)
+    files = ", ".join(f"{name} ({size:.1f} MB)" for name, size in zip(result.files, sizes, strict=True))
+    out.print(f"Files in {result.folder}:", markup=False, soft_wrap=True)
+    say(f"  {files}")
+    out.print(f"To watch: panelsim view {result.folder / 'run.rrd'}", markup=False, soft_wrap=True)
