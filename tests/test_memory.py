@@ -31,7 +31,7 @@ def closed_memory_part(omega: FloatArray) -> FloatArray:
     return STRENGTH * (DECAY**2 - omega**2) / (DECAY**2 + omega**2) ** 2
 
 
-def database(damping_factor: float | FloatArray = 1.0) -> HydroDatabase:
+def database(damping_factor: float | FloatArray = 1.0, roughness: float = 0.0) -> HydroDatabase:
     """The closed form as a database of a ship of 120 m."""
     omega = frequency_grid(120.0)
     matrix = ("frequency", "influenced_dof", "radiating_dof")
@@ -45,7 +45,7 @@ def database(damping_factor: float | FloatArray = 1.0) -> HydroDatabase:
                 "added_mass_infinite": (matrix[1:], INFINITE),
             },
             coords={"frequency": omega, "influenced_dof": list(DOF_NAMES), "radiating_dof": list(DOF_NAMES)},
-            attrs={"length": 120.0, "half_breadth": 7.0},
+            attrs={"length": 120.0, "half_breadth": 7.0, "damping_roughness": roughness},
         )
     )
 
@@ -164,8 +164,11 @@ def test_memory_goes_with_the_root_of_length_or_beam(memory: MemoryFunctions) ->
 def test_ragged_damping_is_refused() -> None:
     ragged = np.ones(len(frequency_grid(120.0)))
     ragged[12] = 1.5
-    with pytest.raises(PanelsimError, match="made again from the retardation functions is off"):
+    with pytest.raises(PanelsimError, match="made again from the retardation functions are off") as refusal:
         memory_functions(database(ragged))
+    assert "damping of heave from heave" in str(refusal.value) and "smaller panels" in str(refusal.value)
+    with pytest.raises(PanelsimError, match="trapped between two hulls"):
+        memory_functions(database(ragged, roughness=0.5))
 
 
 def test_intervals_must_be_positive(memory: MemoryFunctions) -> None:

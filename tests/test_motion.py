@@ -19,6 +19,7 @@ from panelsim.loads.supplementary import Supplementary
 from panelsim.motion.history import History
 from panelsim.motion.march import Limits
 from panelsim.motion.simulate import simulate
+from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.seaways import Bretschneider, CalmSeaway, RandomSeaway
 from panelsim.ship.bundled import load_ship
 from panelsim.ship.ship import Ship
@@ -34,6 +35,10 @@ def sea_state_7(heading_deg: float = 150.0, seed: int = 1001) -> RandomSeaway:
     """The sea of TM 2003-190 section 8.4."""
     frequencies = np.linspace(0.2, 2.0, 19)
     return RandomSeaway(Bretschneider(7.5, 15.0), frequencies, np.deg2rad(heading_deg), seed)
+
+
+# Head waves that meet the ship at 12.4 rad/s at 20 knots, 0.5 s apart.
+SHORT_WAVES = WaveComponents(np.array([0.05]), np.array([3.0]), np.array([np.pi]), np.zeros(1))
 
 
 # --- rest ----------------------------------------------------------------------------------------
@@ -162,6 +167,7 @@ import sys
 import numpy as np
 from panelsim.hydro.store import database_for
 from panelsim.motion.simulate import simulate
+from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.seaways import Bretschneider, RandomSeaway
 from panelsim.ship.bundled import load_ship
 
@@ -221,10 +227,8 @@ def test_a_ship_without_stability_capsizes_and_keeps_its_history() -> None:
 @pytest.mark.parametrize(
     ("given", "cause"),
     [
-        ({"time_step": 5.0, "duration": 600.0}, "limit"),
         ({"supplementary": Supplementary(damping={"heave": 1e12})}, "limit"),
         ({"supplementary": Supplementary(damping={"heave": 1e300})}, "no longer finite"),
-        ({"supplementary": Supplementary(stiffness={"roll": 1e15})}, "limit"),
         ({"initial_velocity": (0, 0, 0, 0, 1e200, 0)}, "limit"),
         ({"initial_displacement": (0, 0, 1e300, 0, 0, 0)}, "limit"),
     ],
@@ -270,7 +274,8 @@ def test_limits_name_the_outcome() -> None:
         ended = limits.exceeded(np.array([at.get(name, 0.0) for name in DOF_NAMES]), before)
         return None if ended is None else ended[0]
 
-    assert outcome(limits, roll=-1.5, yaw=20.0, surge=5000.0) is None
+    assert outcome(limits, roll=-1.5, yaw=1.0, surge=5000.0) is None
+    assert outcome(limits, yaw=-1.1) == "diverged"
     assert outcome(limits, roll=-1.6, roll_before=-1.5) == "capsized"
     assert outcome(limits, roll=1.6, roll_before=-1.5) == "diverged"
     assert outcome(limits, roll=1.6, roll_before=1.5, heave=1e9) == "diverged"
@@ -290,6 +295,10 @@ def test_limits_name_the_outcome() -> None:
         ({"capsize_angle": 4.0}, "The capsize_angle is out of range"),
         ({"model": "weakly nonlinear"}, "Unknown model"),
         ({"stretching": "chang"}, "stretching"),
+        ({"model": "linear", "stretching": "chang"}, "stretching"),
+        ({"time_step": 2.0}, "too long for the motions of the ship"),
+        ({"supplementary": Supplementary(stiffness={"roll": 1e15})}, "too long for the motions of the ship"),
+        ({"seaway": SHORT_WAVES, "time_step": 0.4, "speed": TWENTY_KNOTS}, "too long for the waves"),
         ({"initial_displacement": (0, 0, 0)}, "initial_displacement is not six finite numbers"),
         ({"initial_velocity": (np.inf,) * 6}, "initial_velocity is not six finite numbers"),
     ],
@@ -303,3 +312,78 @@ def test_the_database_of_another_ship_is_refused(halifax_database: HydroDatabase
     frigate = load_ship("frigate", 5.0)
     with pytest.raises(PanelsimError, match="computed for another ship than frigate"):
         simulate(frigate, CalmSeaway(), speed=0.0, duration=1.0, time_step=0.2, database=halifax_database)
+
+
+# --- where the ship is, and when ---------------------------------------------------------------------
+
+
+def test_a_ship_that_starts_elsewhere_moves_as_in_the_waves_that_are_there(
+    run_halifax: Run, halifax: Ship
+) -> None:
+    """Without springs a run from (30, −12) m is the run from the origin in waves of shifted phase.
+
+    Both the incident and the scattered wave must be taken where the ship is: with diffraction at the
+    moving origin heave differs by 30 %.
+    """
+    omega, beta = np.array([0.5, 0.8]), np.deg2rad([150.0, 60.0])
+    k = omega**2 / halifax.gravity
+    start = np.array([30.0, -12.0, 0, 0, 0, 0])
+    shift = k * (start[0] * np.cos(beta) - start[1] * np.sin(beta))
+    there = WaveComponents(np.array([1.0, 0.7]), omega, beta, np.array([0.3, 1.1]))
+    here = WaveComponents(there.amplitude, omega, beta, there.phase - shift)
+    given = {"supplementary": NO_SPRINGS, "duration": 40.0}
+    moved = run_halifax(there, initial_displacement=start, **given).displacement - start
+    expected = run_halifax(here, **given).displacement
+    # Rounding of phases, carried through 40 s.
+    np.testing.assert_allclose(moved, expected, atol=1e-9)
+
+
+def test_the_ramp_fades_in_the_waves_and_every_load_of_theirs(run_halifax: Run) -> None:
+    """Linear wave loads do not depend on the motion: in the ramp ½(1 − cos(πt/ramp)) of the full ones."""
+    sea = sea_state_7()
+    faded, full = (run_halifax(sea, model="linear", duration=20.0, ramp=r) for r in (10.0, 0.0))
+    time = full.time
+    factor = np.where(time < 10.0, 0.5 * (1 - np.cos(np.pi * time / 10.0)), 1.0)
+    rows = slice(0, len(time))
+    np.testing.assert_allclose(faded.wave_elevation[rows], factor * full.wave_elevation, atol=1e-12)
+    for name in ("froude_krylov", "diffraction"):
+        load = full.loads[name]
+        np.testing.assert_allclose(
+            faded.loads[name][rows], factor[:, None] * load, atol=1e-12 * np.abs(load).max()
+        )
+
+
+def test_a_ship_held_askew_at_speed_starts_with_its_steady_radiation_load(
+    run_halifax: Run, halifax_database: HydroDatabase
+) -> None:
+    """Held pitched and yawed until t = 0 the water has the momentum A(0) L η: F = Lᵀ A(0) L η − A∞ η̈.
+
+    That is the Munk moment and its like in pitch; a memory that starts empty has A∞ for A(0).
+    """
+    askew = np.array([0, 0, 0, 0, 0.01, 0.02])
+    history = run_halifax(speed=TWENTY_KNOTS, duration=1.0, initial_displacement=askew)
+    coupling = speed_coupling(TWENTY_KNOTS)
+    infinite = memory_functions(halifax_database).added_mass_infinite
+    expected = coupling.T @ halifax_database.added_mass_zero @ coupling @ askew
+    got = history.loads["radiation"][0] + infinite @ history.acceleration[0]
+    np.testing.assert_allclose(got, expected, atol=1e-9 * np.abs(expected).max())
+
+
+def test_a_run_covers_its_duration_and_says_where_its_step_is_coarse(run_halifax: Run) -> None:
+    """10 s in steps of 0.3 s are 34 steps, not 33; a step of 0.5 s is too coarse for waves of 3.3 rad/s."""
+    sea = WaveComponents(np.array([0.1]), np.array([1.5]), np.array([np.pi]), np.zeros(1))
+    history = run_halifax(sea, duration=10.0, time_step=0.3)
+    assert history.time[-1] == pytest.approx(10.2)
+    assert not any("time steps a period" in note for note in history.notes)
+    coarse = run_halifax(sea, speed=8.0, duration=10.0, time_step=0.5)
+    assert any("fewer than six time steps a period" in note for note in coarse.notes)
+
+
+def test_a_ship_under_way_without_a_yaw_spring_is_warned_of_and_broaches(run_halifax: Run) -> None:
+    """Its Munk moment turns it; beyond 60° of yaw the run ends, since nothing linear holds any more."""
+    history = run_halifax(
+        speed=TWENTY_KNOTS, supplementary=NO_SPRINGS, initial_displacement=(0, 0, 0, 0, 0, 0.05)
+    )
+    assert any("Munk" in note for note in history.notes)
+    assert history.outcome == "diverged"
+    assert "broached" in history.attrs["outcome_detail"]

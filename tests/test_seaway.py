@@ -76,6 +76,13 @@ def test_frequencies_that_miss_the_energy_are_refused() -> None:
     assert "90.0 %" in str(refusal.value)
 
 
+@pytest.mark.parametrize("frequencies", [[0.2, 2.0], [0.2, 0.25, 2.0], [0.2, 0.42, 2.0]])
+def test_frequencies_too_far_apart_to_carry_the_energy_are_refused(frequencies: list[float]) -> None:
+    """Their bands span 99 % of the spectrum, but √(2 S Δω) at so few points is another sea."""
+    with pytest.raises(PanelsimError, match="too far apart"):
+        RandomSeaway(Bretschneider(7.5, 15.0), np.array(frequencies), 0.0, 1)
+
+
 def test_encounter_frequency_keeps_its_sign() -> None:
     """A wave of 1.5 rad/s from astern is overtaken at 20 knots: ω_e = 1.5 − U·1.5²/g < 0."""
     c = WaveComponents(np.ones(2), np.array([0.5, 1.5]), np.zeros(2), np.zeros(2))

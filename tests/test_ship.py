@@ -12,7 +12,7 @@ from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.loads.wetted_surface import pressure_force
 from panelsim.seaway.seaways import CalmSeaway
 from panelsim.ship.bundled import default_panel_area, load_ship
-from panelsim.ship.facts import ship_facts
+from panelsim.ship.facts import ship_facts, ship_warnings
 from panelsim.ship.ship import Ship
 
 
@@ -196,3 +196,22 @@ def test_default_panels_are_some_eight_hundred_below_the_water() -> None:
 def test_a_loading_that_no_ship_can_have_is_refused(given: dict[str, object], words: str) -> None:
     with pytest.raises(PanelsimError, match=words):
         box(**given)
+
+
+@pytest.mark.parametrize(
+    "loading",
+    [{"mass": 3900e3}, {"mass": 4655e3, "center_of_gravity": (6.0, 0.0, 6.3)}, {"draft": 4.2}],
+    ids=["light", "trimmed by the bow", "shallow"],
+)
+def test_a_ship_that_lifts_its_transom_floats_all_the_same(loading: dict[str, object]) -> None:
+    """Its panels cannot follow the water there and are cut by it: equilibrium holds as for any other."""
+    ship = load_ship("halifax", 5.0, **loading)
+    assert ship.straddling_panels > 0
+    assert any("are cut by" in warning for warning in ship_warnings(ship))
+    weight = ship.mass * ship.gravity
+    load = pressure_force(ship, CalmSeaway(), 0.0, np.zeros(6))
+    load[2] -= weight
+    # Newton and the kernel both to rounding.
+    assert np.abs(load[:3]).max() < 1e-9 * weight
+    assert np.abs(load[3:]).max() < 1e-9 * weight * ship.length
+    assert load_ship("halifax", 5.0).straddling_panels == 0

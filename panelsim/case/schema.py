@@ -1,5 +1,6 @@
 """The tables and keys of a case file, and what each may hold."""
 
+import math
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -160,7 +161,7 @@ class RunSection(Section):
 
     @property
     def steps(self) -> int:
-        return round((self.ramp + self.duration) / self.time_step)
+        return math.ceil((self.ramp + self.duration) / self.time_step - 1e-9)
 
 
 class ByMotion(Section):

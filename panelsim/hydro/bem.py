@@ -87,7 +87,8 @@ def solve_radiation(
             "water_density": float(water_density),
             "gravity": float(gravity),
             "length": float(np.ptp(hull.vertices[:, 0])),
-            "solver": f"Capytaine {cpt.__version__}, direct method, lid on the interior free surface",
+            "solver": f"Capytaine {cpt.__version__}, direct method",
+            "lid_panels": 0 if body.lid_mesh is None else int(body.lid_mesh.nb_faces),
         }
     return dataset
 
@@ -164,6 +165,8 @@ def is_mirror_symmetric(mesh: PanelMesh) -> bool:
 
 def _floating_body(cpt: Any, hull: Any, *, half_hull: bool, waterline: float) -> Any:
     lid = hull.generate_lid(z=0.0)
+    if not lid.nb_faces:  # a hull so few panels wide that none as large as they are fits inside it
+        lid = hull.generate_lid(z=0.0, faces_max_radius=0.1 * float(np.ptp(hull.vertices[:, 1])))
     if half_hull:
         hull = cpt.ReflectionSymmetricMesh(half=hull, plane="xOz")
         lid = cpt.ReflectionSymmetricMesh(half=lid, plane="xOz")

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.files import replacing
+from panelsim.hull.panel_mesh import PanelMesh
+from panelsim.hull.refine import subdivided
 from panelsim.hydro.bem import Progress, highest_resolved_frequency, solve_radiation
 from panelsim.ship.bundled import default_panel_area
 from panelsim.ship.ship import Ship
@@ -24,6 +26,7 @@ _CONVENTIONS = {
 }
 # About what gives eight panels to the shortest wave that moves a ship (2.5 rad/s at 120 m).
 _WET_PANELS = 1000
+_WET_PANELS_OF_AN_OWN_MESH = 1200
 # For a ship of 120 m [rad/s]; others go as 1/√L. Stern-quartering seas meet the ship at
 # less than 0.3 rad/s, hence the fine start; waves shorter than half the ship turn the phase of the potentials
 # quickly, hence the fine end.
@@ -57,17 +60,18 @@ class HydroDatabase:
         """Solve the radiation problems of a ship; seconds to a minute.
 
         A ship with a hull form is panelled anew, as finely as the frequencies need; one without is solved
-        on its own mesh. `progress(done, total)` counts frequencies. Raises PanelsimError for another
-        method than "bem" and for a solution that is not physical.
+        on its own mesh, coarse panels split in four. `progress(done, total)` counts frequencies.
+        Raises PanelsimError for another method than "bem" and for a solution that is not physical.
         """
         if method != "bem":
             raise PanelsimError("This method is not known", got=method, allowed="bem")
         solved = _panelled_for_solution(ship)
-        wet = _wet_panels(solved)
-        resolved = highest_resolved_frequency(float(solved.mesh.area[wet].mean()), ship.gravity)
+        mesh = solved.mesh if ship.form is not None else _refined(ship)
+        wet = _wet_panels(ship, mesh)
+        resolved = highest_resolved_frequency(float(mesh.area[wet].mean()), ship.gravity)
         dataset = solve_radiation(
-            solved.vertices,
-            solved.mesh.panels,
+            solved.to_ship_axes(mesh.vertices),
+            mesh.panels,
             solved.waterline,
             water_density=ship.water_density,
             gravity=ship.gravity,
@@ -191,6 +195,11 @@ class HydroDatabase:
         return float(self.dataset.attrs["gravity"])
 
     @property
+    def damping_roughness(self) -> float:
+        """Largest jump of a diagonal damping off its neighbours, over its peak; below 0.03 for a ship."""
+        return float(self.dataset.attrs["damping_roughness"])
+
+    @property
     def fingerprint(self) -> str:
         """Hash of the hull that the database was computed for."""
         return str(self.dataset.attrs[_PREFIX + "form"])
@@ -221,12 +230,20 @@ def _panelled_for_solution(ship: Ship) -> Ship:
     if ship.form is None:
         return ship
     first = ship.at_panel_area(default_panel_area(ship.form))
-    wetted_surface = float(first.mesh.area[_wet_panels(first)].sum())
+    wetted_surface = float(first.mesh.area[_wet_panels(first, first.mesh)].sum())
     return ship.at_panel_area(wetted_surface / _WET_PANELS)
 
 
-def _wet_panels(ship: Ship) -> NDArray[np.bool_]:
-    return ship.to_ship_axes(ship.mesh.centroid)[:, 2] < ship.waterline
+def _refined(ship: Ship) -> PanelMesh:
+    """The ship's own mesh, its panels split in four for as long as they stay about a thousand."""
+    mesh = ship.mesh
+    while 4 * np.count_nonzero(_wet_panels(ship, mesh)) <= _WET_PANELS_OF_AN_OWN_MESH:
+        mesh = subdivided(mesh)
+    return mesh
+
+
+def _wet_panels(ship: Ship, mesh: PanelMesh) -> NDArray[np.bool_]:
+    return ship.to_ship_axes(mesh.centroid)[:, 2] < ship.waterline
 
 
 def _same(name: str, stored: str | float | None, wanted: str | float, length: float) -> bool:

@@ -24,6 +24,8 @@ _TIME_SAMPLES = 1001
 # Ogilvie's relation is averaged where A is neither at its logarithmic start nor at the end of the mesh.
 _INFINITE_FITTED_ON = (0.05, 0.8)  # shares of the highest frequency
 _REBUILT_WITHIN = 0.03  # of the peak
+_ROUGH = 0.1  # share of the peak by which a damping off its neighbours tells of trapped water
+_ROUGH = 0.1  # change of damping from one frequency to the next that no single hull makes, of its peak
 
 
 @dataclass(frozen=True)
@@ -98,7 +100,7 @@ def memory_functions(database: HydroDatabase) -> MemoryFunctions:
         rebuilt_damping=np.abs(damping_error).max(axis=0)
         / pair_scale(database.radiation_damping, database.half_breadth),
     )
-    _require_faithful(memory)
+    _require_faithful(memory, database.damping_roughness)
     return memory
 
 
@@ -170,17 +172,25 @@ def _momentum_spline(time: FloatArray, kernel: FloatArray) -> CubicSpline:
     return CubicSpline(time, kernel, bc_type=("not-a-knot", "clamped"))
 
 
-def _require_faithful(memory: MemoryFunctions) -> None:
-    for name, error in (
-        ("added mass", memory.rebuilt_added_mass),
-        ("radiation damping", memory.rebuilt_damping),
-    ):
-        i, j = np.unravel_index(int(np.argmax(error)), error.shape)
-        if error[i, j] > _REBUILT_WITHIN:
-            raise PanelsimError(
-                f"The {name} made again from the retardation functions is off in "
-                f"{DOF_NAMES[i]} from {DOF_NAMES[j]}",
-                got=f"{100 * error[i, j]:.1f} % of the peak",
-                allowed=f"{100 * _REBUILT_WITHIN:.0f} %",
-                remedy="the damping is ragged or ends too early: compute the database on smaller panels",
-            )
+def _require_faithful(memory: MemoryFunctions, roughness: float) -> None:
+    """Raise PanelsimError, naming every pair of motions, where the kernels do not give A and B back."""
+    faults = [
+        f"{name} of {DOF_NAMES[i]} from {DOF_NAMES[j]} {100 * error[i, j]:.1f} %"
+        for name, error in (("added mass", memory.rebuilt_added_mass), ("damping", memory.rebuilt_damping))
+        for i, j in np.argwhere(error > _REBUILT_WITHIN)
+    ]
+    if not faults:
+        return
+    remedy = (
+        "the damping jumps from one frequency to the next, as with water trapped between two hulls or in a"
+        " moonpool: such hulls are not supported"
+        if roughness > _ROUGH
+        else "the damping has not died at the highest frequency that the panels resolve: smaller panels below"
+        " the water reach higher"
+    )
+    raise PanelsimError(
+        "The coefficients made again from the retardation functions are off",
+        got=f"{', '.join(faults)} of the peak",
+        allowed=f"{100 * _REBUILT_WITHIN:.0f} %",
+        remedy=remedy,
+    )

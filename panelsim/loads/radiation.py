@@ -25,9 +25,9 @@ def speed_coupling(speed: float) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class Past:
-    """What past velocities leave in P_m and its rate (6,), besides the newest sample's own part.
+    """What past velocities leave in P_m and its rate, besides the newest sample's own part.
 
-    `newest` (12, 6) turns the newest ν into its own part: P_m above, Ṗ_m below.
+    `fixed` (12,): P_m above, Ṗ_m below; `newest` (12, 6) turns the newest ν into its own part of both.
     """
 
     fixed: FloatArray
@@ -37,8 +37,9 @@ class Past:
 class Radiation:
     """Radiation load of one ship at one speed, stepped with one time step.
 
-    The past is a plain array of samples of ν, newest first, `memory` (n, 6), which the stepper
-    carries from step to step. `evaluate` leaves out −A∞ ν̇; the equations of motion hold A∞ on the left.
+    Not a `Load` of an instant alone: it also needs the past. That is a plain array of samples of ν, newest
+    first, `memory` (n, 6), which the stepper carries from step to step. `evaluate` leaves out −A∞ η̈;
+    the equations of motion hold A∞ on the left.
     """
 
     name = "radiation"

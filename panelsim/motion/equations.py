@@ -10,7 +10,10 @@ from panelsim.loads.radiation import Past, Radiation
 
 
 class EquationsOfMotion:
-    """M η̈ = Σ loads in translating earth axes, with M the inertia (6, 6) at rest about the CG."""
+    """M η̈ = Σ loads in translating earth axes, with M the inertia (6, 6) at rest about the CG.
+
+    As in TM 2003-190, M is constant: the gyroscopic terms of large angles are left out.
+    """
 
     def __init__(self, inertia: FloatArray, loads: Sequence[Load], radiation: Radiation) -> None:
         self._loads = tuple(loads)

@@ -6,12 +6,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from panelsim.conventions import Dof, FloatArray
+from panelsim.errors import PanelsimError
 from panelsim.loads.load import Instant
 from panelsim.motion.equations import EquationsOfMotion
 from panelsim.motion.steppers import Rates, rk4_step
 
 # Pitch near 90° is where yaw-pitch-roll angles cease to mean anything; no ship comes back from 60°.
 PITCH_LIMIT = np.deg2rad(60.0)
+# Radiation, diffraction and the speed terms are those of a ship near her mean course.
+YAW_LIMIT = np.deg2rad(60.0)
 # Steps that can follow a ship as she capsizes see less of a turn at a time: this is an unstable scheme.
 FASTEST_CAPSIZE = np.deg2rad(45.0)
 
@@ -30,7 +33,7 @@ class Limits:
 
     def exceeded(self, displacement: FloatArray, before: FloatArray) -> tuple[str, str] | None:
         """Outcome and cause, or None while the ship is within all limits; `before` is a step earlier."""
-        heave, roll, pitch = (float(displacement[dof]) for dof in (Dof.HEAVE, Dof.ROLL, Dof.PITCH))
+        heave, roll, pitch, yaw = (float(displacement[dof]) for dof in list(Dof)[Dof.HEAVE :])
         drift = float(np.hypot(*displacement[:2]))
         # Before the roll: a motion that grows without bound passes all limits in the same step.
         if abs(pitch) > PITCH_LIMIT:
@@ -44,6 +47,8 @@ class Limits:
             turned = abs(roll - before[Dof.ROLL])
             outcome = "capsized" if turned < FASTEST_CAPSIZE else "diverged"
             return outcome, f"roll {np.rad2deg(roll):.4g}°, limit {limit:g}°"
+        if abs(yaw) > YAW_LIMIT:
+            return "diverged", f"broached: yaw {np.rad2deg(yaw):.4g}°, limit 60°"
         return None
 
 
@@ -133,9 +138,17 @@ def march(
             if progress is not None and step % STEPS_BETWEEN_PROGRESS == 0:
                 progress(start, steps * time_step)
     except _NotFinite:
+        if not record.count:
+            raise PanelsimError(
+                "The loads on the ship at the start are no numbers",
+                got=displacement,
+                allowed="a ship near rest",
+            ) from None
         record.outcome = "diverged"
         record.detail = f"the motion is no longer finite at t = {start + time_step:.6g} s"
     except KeyboardInterrupt:
+        if not record.count:  # nothing to keep yet
+            raise
         record.outcome, record.detail = "interrupted", f"stopped by the user at t = {start:.6g} s"
     return record
 

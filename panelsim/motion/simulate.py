@@ -1,16 +1,16 @@
 """A run: from a ship and a sea to a history."""
 
 import json
+import math
 import time as clock
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from panelsim.conventions import Dof, FloatArray
-from panelsim.errors import PanelsimError
+from panelsim.conventions import FloatArray
 from panelsim.hydro.database import HydroDatabase
-from panelsim.hydro.diffraction import beyond_resolution, diffraction_load
+from panelsim.hydro.diffraction import diffraction_load
 from panelsim.loads.froude_krylov import froude_krylov_transfer
 from panelsim.loads.linear_waves import LinearWaveLoad
 from panelsim.loads.load import Instant, Load
@@ -22,12 +22,12 @@ from panelsim.loads.wetted_surface import WettedSurface
 from panelsim.motion.equations import EquationsOfMotion
 from panelsim.motion.history import History
 from panelsim.motion.march import Limits, Progress, march, ramp_factor
-from panelsim.seaway.components import WaveComponents, repeat_time
+from panelsim.motion.notes import run_notes
+from panelsim.motion.requirements import require_run, require_time_step, six_numbers
+from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.seaways import Seaway
 from panelsim.seaway.translating import TranslatingSeaway
 from panelsim.ship.ship import Ship
-
-MODELS = ("nonlinear", "linear")
 
 
 def simulate(
@@ -63,16 +63,35 @@ def simulate(
 
     Raises PanelsimError for bad arguments and for a database of another ship.
     """
-    _require_run(speed, duration, time_step, ramp, capsize_angle, model)
+    require_run(
+        speed=speed,
+        duration=duration,
+        time_step=time_step,
+        ramp=ramp,
+        capsize_angle=capsize_angle,
+        model=model,
+        stretching=stretching,
+    )
     database.require_for(ship)
-    start = _six("initial_displacement", initial_displacement), _six("initial_velocity", initial_velocity)
+    start = (
+        six_numbers("initial_displacement", initial_displacement),
+        six_numbers("initial_velocity", initial_velocity),
+    )
     components = seaway.components
     before = clock.process_time()
     loads = _pressure_loads(ship, components, speed, model, stretching)
-    loads.append(_diffraction(ship, components, speed, database))
+    loads.append(_diffraction(ship, components, speed, database, follows_ship=model == "nonlinear"))
     supplementary = Supplementary() if supplementary is None else supplementary
     loads.append(supplementary)
-    equations = EquationsOfMotion(ship.inertia, loads, Radiation(database, speed, time_step))
+    radiation = Radiation(database, speed, time_step)
+    require_time_step(
+        time_step,
+        ship.inertia + radiation.added_mass_infinite,
+        ship.hydrostatics.stiffness + supplementary.stiffness_matrix,
+        components,
+        components.encounter_frequency(speed, ship.gravity),
+    )
+    equations = EquationsOfMotion(ship.inertia, loads, radiation)
     # The first evaluation compiles the kernel; its time is no part of the time loop.
     for load in loads:
         load.evaluate(Instant(0.0, 0.0, *start))
@@ -80,7 +99,8 @@ def simulate(
     record = march(
         equations,
         *start,
-        steps=round((ramp + duration) / time_step),
+        # Whole steps that cover all of it; rounding of the quotient is no step.
+        steps=math.ceil((ramp + duration) / time_step - 1e-9),
         time_step=time_step,
         ramp=ramp,
         limits=Limits(capsize_angle, heave=0.5 * ship.length, drift=100.0 * ship.length),
@@ -113,8 +133,14 @@ def simulate(
         jit_seconds=compiled - before,
         notes=[
             *notes,
-            *_notes(components, speed, ramp + duration, database, ship.gravity),
-            *_course_note(speed, database, supplementary),
+            *run_notes(
+                components,
+                database,
+                supplementary,
+                speed=speed,
+                time_step=time_step,
+                length=ramp + duration,
+            ),
         ],
     )
 
@@ -129,82 +155,21 @@ def _pressure_loads(
         "froude_krylov",
         froude_krylov_transfer(ship, components),
         components,
-        components.encounter_frequency(speed, ship.gravity),
+        speed=speed,
+        gravity=ship.gravity,
+        follows_ship=False,
     )
     return [Restoring(ship.hydrostatics.stiffness), incident]
 
 
 def _diffraction(
-    ship: Ship, components: WaveComponents, speed: float, database: HydroDatabase
+    ship: Ship, components: WaveComponents, speed: float, database: HydroDatabase, *, follows_ship: bool
 ) -> LinearWaveLoad:
     return LinearWaveLoad(
         "diffraction",
         diffraction_load(database, components.frequency, components.wave_heading, speed),
         components,
-        components.encounter_frequency(speed, ship.gravity),
+        speed=speed,
+        gravity=ship.gravity,
+        follows_ship=follows_ship,
     )
-
-
-def _notes(
-    components: WaveComponents, speed: float, length: float, database: HydroDatabase, gravity: float
-) -> list[str]:
-    """What a reader of the results should know of the sea and of the reach of the coefficients."""
-    notes = []
-    if components.count:
-        beyond = beyond_resolution(database, components.frequency, components.wave_heading, speed)
-        energy = components.amplitude**2
-        share = float(energy[beyond].sum() / energy.sum())
-        highest = float(np.abs(components.encounter_frequency(speed, gravity)).max())
-        limit = float(database.frequencies[np.isfinite(database.frequencies)].max())
-        if beyond.any():
-            notes.append(
-                f"{beyond.sum()} of {components.count} wave components, with {100 * share:.2g} % of the wave"
-                f" energy, meet the ship at up to {highest:.2f} rad/s, beyond the {limit:.2f} rad/s that the"
-                " panels of the coefficients resolve; there the diffraction potential tends"
-                " to its infinite-frequency limit as 1/ω², and radiation follows A∞ and the damping's tail."
-            )
-    again = repeat_time(components, speed, length, gravity=gravity)
-    if again is not None:
-        notes.append(
-            f"The ship meets nearly the same waves again every {again:.0f} s (evenly spaced frequencies):"
-            " a longer run adds little to its statistics."
-        )
-    return notes
-
-
-def _course_note(speed: float, database: HydroDatabase, supplementary: Supplementary) -> list[str]:
-    """Say where nothing holds the ship on its course: the Munk moment U² A22(0) per radian turns it."""
-    munk = speed**2 * float(database.added_mass_zero[Dof.SWAY, Dof.SWAY])
-    if supplementary.stiffness_matrix[Dof.YAW, Dof.YAW] > munk or munk == 0.0:
-        return []
-    return [
-        f"No supplementary yaw stiffness over {munk:.2g} N m/rad holds the ship on its course: at this speed"
-        " a bare hull turns broadside by itself (Munk moment)."
-    ]
-
-
-def _require_run(
-    speed: float, duration: float, time_step: float, ramp: float, capsize_angle: float, model: str
-) -> None:
-    """Refuse what cannot be run."""
-    if model not in MODELS:
-        raise PanelsimError("Unknown model", got=model, allowed=" | ".join(MODELS))
-    bounds = {
-        "speed": (speed, 0.0, 50.0, "m/s"),
-        "time_step": (time_step, 1e-4, 5.0, "s"),
-        "duration": (duration, time_step, 1e6, "s"),
-        "ramp": (ramp, 0.0, 1e5, "s"),
-        "capsize_angle": (capsize_angle, 0.0, np.pi, "rad"),
-    }
-    for name, (value, low, high, unit) in bounds.items():
-        if not low <= value <= high:
-            raise PanelsimError(
-                f"The {name} is out of range", got=f"{value:g} {unit}", allowed=f"{low:g} to {high:g} {unit}"
-            )
-
-
-def _six(name: str, values: Sequence[float] | FloatArray) -> FloatArray:
-    array = np.array(values, dtype=float)
-    if array.shape != (6,) or not np.isfinite(array).all():
-        raise PanelsimError(f"The {name} is not six finite numbers", got=values)
-    return array

@@ -86,7 +86,8 @@ class RandomSeaway:
     with Δω the spacing of the frequencies, not rescaled. Phases are
     `numpy.random.default_rng(seed).uniform(0, 2π, M)` in the order of the frequencies.
 
-    Raises PanelsimError where the frequencies hold less than `minimum_energy` of the spectrum.
+    Raises PanelsimError where the frequencies hold less than `minimum_energy` of the spectrum, or are too
+    far apart to carry it.
     """
 
     spectrum: Bretschneider
@@ -105,14 +106,27 @@ class RandomSeaway:
             raise PanelsimError("The wave frequencies do not rise, or are fewer than two", got=frequencies)
         if frequencies[0] <= 0:
             raise PanelsimError("A wave frequency is not positive", got=f"{frequencies[0]:g} rad/s")
+        self._require_energy()
+
+    def _require_energy(self) -> None:
+        """Refuse frequencies that miss a part of the spectrum, and steps too coarse to follow its peak."""
+        span = f"{self.frequencies[0]:g} to {self.frequencies[-1]:g} rad/s"
+        peak = 2 * np.pi / self.spectrum.peak_period
         if self.energy_share < self.minimum_energy:
-            span = f"{frequencies[0]:g} to {frequencies[-1]:g} rad/s"
             raise PanelsimError(
                 "The wave frequencies hold too little of the spectrum's energy",
-                got=f"{100 * self.energy_share:.1f} % in {span}"
-                f" (the spectrum peaks at {2 * np.pi / self.spectrum.peak_period:.3g} rad/s)",
+                got=f"{100 * self.energy_share:.1f} % in {span} (the spectrum peaks at {peak:.3g} rad/s)",
                 allowed=f"at least {100 * self.minimum_energy:.1f} % (minimum_energy)",
                 remedy="widen seaway.frequencies, or lower seaway.minimum_energy",
+            )
+        carried = self.components.variance / self.spectrum.moment(0)
+        if abs(carried - 1.0) > 1.0 - self.minimum_energy + 1e-12:
+            raise PanelsimError(
+                "The wave components do not carry the spectrum's energy: their frequencies are too far apart",
+                got=f"{100 * carried:.1f} % carried by {len(self.frequencies)} frequencies in {span}"
+                f" (the spectrum peaks at {peak:.3g} rad/s)",
+                allowed=f"within {100 * (1 - self.minimum_energy):.1f} % of all of it (minimum_energy)",
+                remedy="take smaller frequency steps, or lower seaway.minimum_energy",
             )
 
     @cached_property

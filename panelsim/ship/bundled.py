@@ -5,7 +5,7 @@ from pathlib import Path
 
 from panelsim.conventions import STANDARD_GRAVITY
 from panelsim.hull.form import HullForm, load_hull
-from panelsim.ship.ship import Ship
+from panelsim.ship.ship import Ship, panel_to_waterline
 
 # A mesh like the medium one of TM 2003-190 Table 3 has some 800 panels below the waterline.
 WET_PANELS_BY_DEFAULT = 800
@@ -51,7 +51,7 @@ def load_ship(
 
     def afloat(draft: float, stern: float) -> Ship:
         return Ship(
-            form.panel(area, draft=draft, trim_by_stern=stern),
+            panel_to_waterline(form, area, draft, stern),
             draft=draft,
             trim=-math.atan(stern / form.length_pp),
             center_of_gravity=cg,

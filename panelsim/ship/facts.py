@@ -92,6 +92,12 @@ def ship_warnings(ship: Ship) -> tuple[str, ...]:
         for name, radius in zip(reach, ship.gyradii, strict=True)
         if radius > reach[name]
     ]
+    straddling = ship.straddling_panels
+    if ship.form is not None and straddling:
+        warnings.append(
+            f"The hull meets the water at rest otherwise than at its own draft: {straddling} panels are cut by"
+            " the water instead of ending there. Loads are exact for them; the count of wet panels is not."
+        )
     return tuple(warnings)
 
 

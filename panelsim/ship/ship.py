@@ -24,7 +24,8 @@ class Ship:
     """A loaded ship, floating at rest.
 
     `mesh` in hull axes. `center_of_gravity` (x, y, z) in hull axes [m]; x may be None, then the
-    ship is loaded so that it floats at the given trim. `gyradii` (roll, pitch, yaw) [m] about the CG.
+    ship is loaded so that it floats at the given trim. `gyradii` (roll, pitch, yaw) [m] about the CG,
+    of axes that are level at rest.
 
     Without `mass`, mass and longitudinal CG are those that float at `draft` [m] (at midships) and
     `trim` [rad] (bow down positive). With a `mass` [kg] and a CG that has an x, the ship sinks and
@@ -188,7 +189,25 @@ class Ship:
         """The same ship on a mesh of another panel size [m²]; itself where no form is known."""
         if self.form is None:
             return self
-        return self.with_mesh(self.form.panel(panel_area, draft=self.draft, trim_by_stern=self.trim_by_stern))
+        return self.with_mesh(panel_to_waterline(self.form, panel_area, self.draft, self.trim_by_stern))
+
+    @property
+    def straddling_panels(self) -> int:
+        """Panels that the water at rest cuts: none where the mesh follows it, as for most hull forms."""
+        height = (self.vertices[:, 2] - self.waterline)[self.mesh.panels]
+        return int(np.count_nonzero((height.min(axis=1) < 0.0) & (height.max(axis=1) > 0.0)))
+
+
+def panel_to_waterline(form: HullForm, panel_area: float, draft: float, trim_by_stern: float) -> PanelMesh:
+    """A mesh whose panels end at the water at rest, or where that cannot be, at the form's own draft.
+
+    It cannot where the water at rest meets the hull in another way than at the form's draft, as with a
+    stern lifted out. The loads cut panels exactly, so only the count of wet panels loses its meaning.
+    """
+    try:
+        return form.panel(panel_area, draft=draft, trim_by_stern=trim_by_stern)
+    except PanelsimError:
+        return form.panel(panel_area)
 
 
 def _mesh_fingerprint(mesh: PanelMesh) -> str:

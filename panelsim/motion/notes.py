@@ -1,0 +1,75 @@
+"""What a reader of the results should know of a run: its sea, its step, the reach of its coefficients."""
+
+import numpy as np
+
+from panelsim.conventions import Dof
+from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.diffraction import beyond_resolution
+from panelsim.loads.supplementary import Supplementary
+from panelsim.motion.requirements import ENERGY_THAT_COUNTS, energy_share
+from panelsim.seaway.components import WaveComponents, repeat_time
+
+# A wave of six steps a period is followed within some per cent.
+COARSE_STEP = 1.0  # encounter frequency times time step
+
+
+def run_notes(
+    components: WaveComponents,
+    database: HydroDatabase,
+    supplementary: Supplementary,
+    *,
+    speed: float,
+    time_step: float,
+    length: float,
+) -> list[str]:
+    """Sentences on a run of `length` [s] at `speed` [m/s] with `time_step` [s]; none where all is well."""
+    notes = []
+    if components.count:
+        notes += _resolution_note(components, database, speed)
+        notes += _step_note(components, speed, time_step, database.gravity)
+    again = repeat_time(components, speed, length, gravity=database.gravity)
+    if again is not None:
+        notes.append(
+            f"The ship meets nearly the same waves again every {again:.0f} s (evenly spaced frequencies):"
+            " a longer run adds little to its statistics."
+        )
+    return notes + _course_note(database, supplementary, speed)
+
+
+def _resolution_note(components: WaveComponents, database: HydroDatabase, speed: float) -> list[str]:
+    """Waves met faster than the panels of the coefficients resolve, and what is done about them."""
+    beyond = beyond_resolution(database, components.frequency, components.wave_heading, speed)
+    if not beyond.any():
+        return []
+    highest = np.abs(components.encounter_frequency(speed, database.gravity)).max()
+    return [
+        f"{beyond.sum()} of {components.count} wave components, with"
+        f" {100 * energy_share(components, beyond):.2g} % of the wave energy, meet the ship at up to"
+        f" {highest:.2f} rad/s, beyond the {database.frequencies[-1]:.2f} rad/s that the panels of the"
+        " coefficients resolve; there the diffraction potential tends to its infinite-frequency limit"
+        " as 1/ω², and radiation follows A∞ and the damping's tail."
+    ]
+
+
+def _step_note(components: WaveComponents, speed: float, time_step: float, gravity: float) -> list[str]:
+    """Waves that a coarse step follows badly."""
+    encounter = np.abs(components.encounter_frequency(speed, gravity))
+    share = energy_share(components, encounter * time_step > COARSE_STEP)
+    if share <= ENERGY_THAT_COUNTS:
+        return []
+    return [
+        f"{100 * share:.0f} % of the wave energy meets the ship with fewer than six time steps a period:"
+        f" motions from it are off by several per cent; a step of {COARSE_STEP / encounter.max():.2g} s"
+        " follows all of it."
+    ]
+
+
+def _course_note(database: HydroDatabase, supplementary: Supplementary, speed: float) -> list[str]:
+    """Say where nothing holds the ship on its course: the Munk moment U² A22(0) per radian turns it."""
+    munk = speed**2 * float(database.added_mass_zero[Dof.SWAY, Dof.SWAY])
+    if supplementary.stiffness_matrix[Dof.YAW, Dof.YAW] > munk or munk == 0.0:
+        return []
+    return [
+        f"No supplementary yaw stiffness over {munk:.2g} N m/rad holds the ship on its course: at this speed"
+        " a bare hull turns broadside by itself (Munk moment)."
+    ]
