@@ -189,4 +189,8 @@ def _require_afloat(part: ImmersedPart, draft: float) -> None:
             remedy="run check_mesh on it",
         )
     if part.waterplane_area <= NO_WATERPLANE * part.wetted_surface:
-        raise PanelsimError("The hull lies wholly under the water", got=f"draft {draft} m")
+        raise PanelsimError(
+            "The hull lies wholly under water",
+            got=f"draft {draft:g} m",
+            remedy="choose a smaller draft or mass",
+        )

@@ -30,6 +30,10 @@ class Counts:
     deck_width: float
 
 
+class EndMissesWater(PanelsimError):
+    """The water at rest passes the bow or the stern by, so that no row of panels can follow it there."""
+
+
 def panel_lines(
     sections: tuple[FloatArray, ...],
     aft: FloatArray,
@@ -77,7 +81,7 @@ def _cut_ends(aft: FloatArray, fore: FloatArray, waterline: Waterline) -> list[t
     ends = [split_at_waterline(end, waterline) for end in (aft, fore)]
     for name, end, parts in zip(("stern", "stem"), (aft, fore), ends, strict=True):
         if any(len(part) < 2 for part in parts):
-            raise PanelsimError(
+            raise EndMissesWater(
                 f"The water at rest does not reach the {name} between its lowest point and the deck",
                 got=f"the waterline at {waterline.height(end[0, 0]):.3f} m above the baseline there",
                 allowed=f"more than {end[0, 2]:.3f} m, less than {end[-1, 2]:.3f} m",

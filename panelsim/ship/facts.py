@@ -95,8 +95,8 @@ def ship_warnings(ship: Ship) -> tuple[str, ...]:
     straddling = ship.straddling_panels
     if ship.form is not None and straddling:
         warnings.append(
-            f"The hull meets the water at rest otherwise than at its own draft: {straddling} panels are cut by"
-            " the water instead of ending there. Loads are exact for them; the count of wet panels is not."
+            f"The water at rest passes the stern or the bow by: {straddling} panels are cut by it instead of"
+            " ending there. Loads are exact for them; the count of wet panels is not."
         )
     return tuple(warnings)
 

@@ -18,6 +18,7 @@ from panelsim.hull.equilibrium import draft_of_mass, equilibrium
 from panelsim.hull.form import HullForm
 from panelsim.hull.hydrostatics import Hydrostatics, hydrostatics
 from panelsim.hull.panel_mesh import PanelMesh
+from panelsim.hull.panelling import EndMissesWater
 
 
 class Ship:
@@ -201,12 +202,12 @@ class Ship:
 def panel_to_waterline(form: HullForm, panel_area: float, draft: float, trim_by_stern: float) -> PanelMesh:
     """A mesh whose panels end at the water at rest, or where that cannot be, at the form's own draft.
 
-    It cannot where the water at rest meets the hull in another way than at the form's draft, as with a
-    stern lifted out. The loads cut panels exactly, so only the count of wet panels loses its meaning.
+    It cannot where the water at rest passes below the transom or the stem. The loads cut panels exactly, so
+    only the count of wet panels loses its meaning.
     """
     try:
         return form.panel(panel_area, draft=draft, trim_by_stern=trim_by_stern)
-    except PanelsimError:
+    except EndMissesWater:
         return form.panel(panel_area)
 
 
