@@ -181,7 +181,7 @@ def test_default_panels_are_some_eight_hundred_below_the_water() -> None:
     [
         ({"draft": 0.0}, "draft is not positive"),
         ({"draft": np.nan}, "draft is not positive"),
-        ({"draft": 5.0}, "wholly under the water"),
+        ({"draft": 5.0}, "wholly under water"),
         ({"mass": -1.0}, "mass is not positive"),
         ({"mass": 1e9}, "cannot float with this mass"),
         ({"gyradii": (2.0, 0.0, 5.0)}, "gyradius_pitch is not positive"),

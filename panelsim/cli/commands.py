@@ -2,6 +2,7 @@
 
 import json
 import sys
+import time
 from pathlib import Path
 from typing import Annotated
 
@@ -156,6 +157,7 @@ def run(
     """Run a case: history.nc, statistics.json, report.md with plots, run.rrd."""
     from panelsim.studies.run_case import run_case  # brings matplotlib and rerun
 
+    imports = time.process_time()
     case = Case.load(case_file, overrides or ())
     folder = out_folder if out_folder is not None else Path("runs") / case.name
     refuse_occupied_folder(folder, force=force)
@@ -169,7 +171,7 @@ def run(
             on_coefficients=track("hydrodynamic coefficients"),
             on_run=track("run"),
         )
-    show_result(result, known=warnings)
+    show_result(result, known=warnings, imports=imports)
     if result.history.outcome != "finished":
         detail = result.statistics.outcome_detail
         err.print(f"The run ended early: {result.history.outcome}, {detail}", markup=False)

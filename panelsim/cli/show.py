@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -80,7 +81,7 @@ def _metres(value: float) -> str:
 
 
 def _show_published(published: Mapping[str, Published]) -> None:
-    table = Table("SI", "published", "here", "difference", box=None, padding=(0, 2))
+    table = Table("in SI units", "published", "here", "difference", box=None, padding=(0, 2))
     for name, entry in published.items():
         here = "–" if entry.here is None else f"{entry.here:.6g}"
         relative = entry.relative_difference
@@ -130,8 +131,8 @@ def _sea(case: Case) -> str:
     repeat = "does not repeat within the run" if again is None else f"repeats after {again:.0f} s"
     significant = 4 * components.variance**0.5
     return (
-        f"random, seed {case.file.seaway.seed}, {components.count} components, 4 RMS {significant:.4g} m,"
-        f" {heading}; as the ship meets it, it {repeat}"
+        f"random, seed {case.file.seaway.seed}, {components.count} components, 4 × RMS of the elevation"
+        f" {significant:.4g} m, {heading}; as the ship meets it, it {repeat}"
     )
 
 
@@ -139,8 +140,11 @@ def _by_motion(values: Mapping[str, float]) -> str:
     return ", ".join(f"{motion} {value:g}" for motion, value in values.items()) or "none"
 
 
-def show_result(result: "RunOutput", known: Sequence[str]) -> None:
-    """The statistics of a run, what it cost, its notes but the `known` ones, where its files are."""
+def show_result(result: "RunOutput", known: Sequence[str], imports: float) -> None:
+    """The statistics of a run, what it cost, its notes but the `known` ones, where its files are.
+
+    `imports` are the CPU seconds from the start of the program to the first work on the case.
+    """
     statistics = result.statistics
     if statistics.duration > 0.0:
         out.print(statistics_table(statistics))
@@ -153,12 +157,19 @@ def show_result(result: "RunOutput", known: Sequence[str]) -> None:
             f" {factor:.0f} times faster than real time."
         )
     stages = ", ".join(f"{name} {seconds:.1f}" for name, seconds in result.seconds.items())
-    say(f"CPU seconds by stage: {stages} (of it compilation {statistics.jit_seconds:.1f}).")
+    say(
+        f"CPU seconds by stage: start and imports {imports:.1f}, {stages}"
+        f" (of the run {statistics.jit_seconds:.1f} for compilation and set-up)."
+    )
     for note in result.history.notes:
         if note not in known:
             say(f"note: {note}")
-    sizes = ((result.folder / name).stat().st_size / 1e6 for name in result.files)
-    files = ", ".join(f"{name} ({size:.1f} MB)" for name, size in zip(result.files, sizes, strict=True))
+    files = ", ".join(f"{name} ({_size(result.folder / name)})" for name in result.files)
     out.print(f"Files in {result.folder}:", markup=False, soft_wrap=True)
     say(f"  {files}")
     out.print(f"To watch: panelsim view {result.folder / 'run.rrd'}", markup=False, soft_wrap=True)
+
+
+def _size(path: Path) -> str:
+    size = path.stat().st_size
+    return f"{size / 1e6:.1f} MB" if size > 1e5 else f"{size / 1e3:.1f} kB"
