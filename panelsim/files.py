@@ -5,14 +5,36 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from panelsim.errors import PanelsimError
+
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Lend a name beside `path` to write to; at the end rename it to `path`, after an error remove it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
+    """Lend a name beside `path` to write to; at the end rename it to `path`, after an error remove it.
+
+    Raises PanelsimError where the place cannot be written, or runs full.
+    """
     beside = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         yield beside
         beside.replace(path)
+    except OSError as error:
+        raise PanelsimError(
+            "The file cannot be written",
+            got=f"{path} ({error.strerror or error})",
+            remedy="make room there, or choose another place",
+        ) from error
     finally:
-        beside.unlink(missing_ok=True)
+        if beside.parent.is_dir():
+            beside.unlink(missing_ok=True)
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file whole or not at all.
+
+    Libraries that write files by themselves do not tell of a full disk, or end the process: let them make
+    bytes, and write those here.
+    """
+    with replacing(path) as beside:
+        beside.write_bytes(content)

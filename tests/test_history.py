@@ -102,12 +102,11 @@ def test_a_failed_write_leaves_the_folder_as_it_was(
     path = make_history().save(tmp_path / "history.nc")
     before = path.read_bytes()
 
-    def fail(self: xr.DataTree, target: Path, **_: object) -> None:
-        Path(target).write_bytes(b"half a file")
+    def full_disk(self: Path, data: bytes) -> int:
         raise OSError("disk full")
 
-    monkeypatch.setattr(xr.DataTree, "to_netcdf", fail)
-    with pytest.raises(OSError, match="disk full"):
+    monkeypatch.setattr(Path, "write_bytes", full_disk)
+    with pytest.raises(PanelsimError, match="disk full"):
         make_history(duration=30.0).save(path, overwrite=True)
     assert path.read_bytes() == before
     assert list(tmp_path.iterdir()) == [path]

@@ -22,7 +22,7 @@ def test_the_page_holds_the_run_and_its_results(make_history: MakeHistory, tmp_p
     assert path == tmp_path / "report.md"
     assert statistics_markdown(statistics(history)) in page
     for fact in (
-        "barge, length 20.00 m, beam 6.00 m",
+        "barge, length 20 m, beam 6 m",
         "246.0 t in water of 1025 kg/m³",
         "6 panels",
         "5.000 m/s (9.72 knots)",
@@ -57,7 +57,7 @@ def test_a_run_that_ended_early_says_so_first(
 ) -> None:
     history = make_history(duration=8.0, outcome=outcome, outcome_detail="t = 8 s, roll 91.2°", notes=())
     lines = report(history, tmp_path).read_text(encoding="utf-8").splitlines()
-    assert "t = 8 s, roll 91.2°" in lines[2]
+    assert "T = 8 s, roll 91.2°." in lines[2]
     assert "before its ramp" in lines[2]
     assert "## Notes" not in lines
 
@@ -76,6 +76,6 @@ def test_regular_waves_have_a_height_and_calm_water_has_none(
 ) -> None:
     wave = WaveComponents(np.array([1.5]), np.array([0.6]), np.array([np.pi]), np.zeros(1))
     page = report(make_history(components=wave, seaway_kind="regular"), tmp_path / "a").read_text("utf-8")
-    assert page.startswith("# barge: regular waves, height 3.00 m, 180 deg, 9.7 knots")
+    assert page.startswith("# barge: regular waves, height 3 m, 180 deg, 9.7 knots")
     page = report(make_history(components=NO_WAVES, seaway_kind="calm"), tmp_path / "b").read_text("utf-8")
     assert page.startswith("# barge: calm water, 9.7 knots")

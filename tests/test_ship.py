@@ -191,6 +191,11 @@ def test_default_panels_are_some_eight_hundred_below_the_water() -> None:
         ({"mass": 1e5, "center_of_gravity": (0.0, 0.1, 1.5)}, "list"),
         ({"water_density": 1.025}, "not that of water"),
         ({"gravity": -9.81}, "gravity is not positive"),
+        ({"trim": 1.5}, "No ship floats at this trim"),
+        ({"gyradii": (2.0, 5.0)}, "three numbers each"),
+        ({"center_of_gravity": (0.0, 1.0)}, "three numbers each"),
+        ({"center_of_gravity": (None, 0.0, None)}, "three numbers each"),
+        ({"draft": "deep"}, "not given in numbers"),
     ],
 )
 def test_a_loading_that_no_ship_can_have_is_refused(given: dict[str, object], words: str) -> None:
@@ -215,3 +220,15 @@ def test_a_ship_that_lifts_its_transom_floats_all_the_same(loading: dict[str, ob
     assert np.abs(load[:3]).max() < 1e-9 * weight
     assert np.abs(load[3:]).max() < 1e-9 * weight * ship.length
     assert load_ship("halifax", 5.0).straddling_panels == 0
+
+
+def test_tonnes_for_kilograms_are_refused() -> None:
+    form = load_hull("halifax")
+    with pytest.raises(PanelsimError, match="masses are in kg"):
+        Ship(
+            form.panel(10.0),
+            draft=form.draft,
+            mass=4655.0,
+            center_of_gravity=(None, 0.0, 6.26),
+            gyradii=(5.8, 28.8, 28.8),
+        )

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
-from panelsim.files import replacing
+from panelsim.files import write_whole
 from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.hull.refine import subdivided
 from panelsim.hydro.bem import Progress, highest_resolved_frequency, solve_radiation
@@ -120,8 +120,7 @@ class HydroDatabase:
         """Write NetCDF-4, the potentials compressed in single precision, beside the target and renamed."""
         compressed = {"dtype": "float32", "compression": "gzip", "compression_opts": 6, "shuffle": True}
         encoding = {name: compressed for name in self.dataset.data_vars if str(name).startswith("potential")}
-        with replacing(Path(path)) as beside:
-            self.dataset.to_netcdf(beside, engine="h5netcdf", encoding=encoding)
+        write_whole(Path(path), bytes(self.dataset.to_netcdf(engine="h5netcdf", encoding=encoding)))
 
     @cached_property
     def frequencies(self) -> FloatArray:

@@ -1,5 +1,6 @@
 """Where databases are kept, so that no ship is solved twice: with the bundled hulls, and in a cache."""
 
+import contextlib
 import hashlib
 import json
 import os
@@ -35,7 +36,9 @@ def database_for(ship: Ship, progress: Progress | None = None) -> HydroDatabase:
     if cached is not None:
         return cached
     database = HydroDatabase.compute(ship, progress=progress)
-    database.save(cached_at)
+    # A cache that cannot be written costs the next run its time, and this one nothing.
+    with contextlib.suppress(PanelsimError):
+        database.save(cached_at)
     return database
 
 

@@ -7,6 +7,9 @@ a forked child hangs at its first kernel; both are refused here in words.
 import contextlib
 import io
 import os
+import signal
+import threading
+from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
@@ -25,9 +28,26 @@ def import_taichi() -> Any:
     """Import Taichi quietly; what the user's environment says about it stands."""
     for name, value in ENVIRONMENT.items():
         os.environ.setdefault(name, value)
-    import taichi
+    with interrupts_held_back():
+        import taichi
 
     return taichi
+
+
+@contextlib.contextmanager
+def interrupts_held_back() -> Iterator[None]:
+    """Raise an interrupt after the block: as Taichi is imported and declares kernels, it swallows them."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    held: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, frame: held.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+    if held:
+        raise KeyboardInterrupt
 
 
 def start() -> None:

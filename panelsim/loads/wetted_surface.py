@@ -6,6 +6,7 @@ import numpy as np
 
 from panelsim.conventions import FloatArray, load_to_earth
 from panelsim.errors import PanelsimError
+from panelsim.kernels.runtime import interrupts_held_back
 from panelsim.kernels.tables import panel_tables, wave_tables
 from panelsim.loads.load import Instant
 from panelsim.seaway.components import WaveComponents
@@ -98,5 +99,6 @@ def _method(name: str) -> Callable[..., FloatArray]:
     if name == "oracle":
         from panelsim.kernels.oracle import wetted_surface_load
     else:
-        from panelsim.kernels.pressure import wetted_surface_load
+        with interrupts_held_back():
+            from panelsim.kernels.pressure import wetted_surface_load
     return wetted_surface_load

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from panelsim.conventions import DOF_NAMES, FloatArray, IntArray
 from panelsim.errors import PanelsimError
-from panelsim.files import replacing
+from panelsim.files import write_whole
 from panelsim.seaway.components import WaveComponents
 
 if TYPE_CHECKING:  # only its fields are read: a saved history opens without the hull package
@@ -249,8 +249,7 @@ class History:
             }
             for node in self.tree.subtree
         }
-        with replacing(path) as beside:
-            self.tree.to_netcdf(beside, engine="h5netcdf", encoding=encoding)
+        write_whole(path, bytes(self.tree.to_netcdf(engine="h5netcdf", encoding=encoding)))
         return path
 
     @classmethod

@@ -6,9 +6,13 @@ import numpy as np
 
 from panelsim.conventions import STRETCHINGS, FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.hydro.database import HydroDatabase
+from panelsim.loads.supplementary import Supplementary
 from panelsim.seaway.components import WaveComponents
+from panelsim.ship.ship import Ship
 
 MODELS = ("nonlinear", "linear")
+MOST_STEPS = 2_000_000  # a run keeps some 400 bytes a step
 # RK4 stays stable to ω dt = 2.83, but at 2 it takes a quarter off a motion with every step.
 LONGEST_STEP = 2.0  # over the highest natural frequency of the ship
 # Two samples a period are the least that can show a wave at all.
@@ -42,6 +46,13 @@ def require_run(
             raise PanelsimError(
                 f"The {name} is out of range", got=f"{value:g} {unit}", allowed=f"{low:g} to {high:g} {unit}"
             )
+    if (ramp + duration) / time_step > MOST_STEPS:
+        raise PanelsimError(
+            "The run has too many steps",
+            got=f"{(ramp + duration) / time_step:.3g}",
+            allowed=f"at most {MOST_STEPS}",
+            remedy="shorten the run, or take a longer time step",
+        )
 
 
 def require_time_step(
@@ -80,9 +91,26 @@ def energy_share(components: WaveComponents, chosen: np.ndarray) -> float:
     return float(energy[chosen].sum() / energy.sum()) if energy.any() else 0.0
 
 
+def require_types(ship: object, database: object, supplementary: object, notes: object) -> None:
+    """Raise PanelsimError for arguments that are names or tables of what they should be."""
+    wanted = {
+        "ship": (ship, Ship, "a Ship, as load_ship() makes it"),
+        "database": (database, HydroDatabase, "a HydroDatabase, as database_for(ship) gives it"),
+        "supplementary": (supplementary, Supplementary | None, "a Supplementary, or None"),
+    }
+    for name, (value, kind, allowed) in wanted.items():
+        if not isinstance(value, kind):
+            raise PanelsimError(f"The {name} is of another kind", got=repr(value)[:60], allowed=allowed)
+    if isinstance(notes, str):
+        raise PanelsimError("The notes are one text", got=repr(notes)[:60], allowed="a list of sentences")
+
+
 def six_numbers(name: str, values: Sequence[float] | FloatArray) -> FloatArray:
     """Six finite numbers as an array, else PanelsimError."""
-    array = np.array(values, dtype=float)
+    try:
+        array = np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        array = np.empty(0)
     if array.shape != (6,) or not np.isfinite(array).all():
         raise PanelsimError(f"The {name} is not six finite numbers", got=values)
     return array

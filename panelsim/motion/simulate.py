@@ -23,7 +23,7 @@ from panelsim.motion.equations import EquationsOfMotion
 from panelsim.motion.history import History
 from panelsim.motion.march import Limits, Progress, march, ramp_factor
 from panelsim.motion.notes import run_notes
-from panelsim.motion.requirements import require_run, require_time_step, six_numbers
+from panelsim.motion.requirements import require_run, require_time_step, require_types, six_numbers
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.seaways import Seaway
 from panelsim.seaway.translating import TranslatingSeaway
@@ -63,6 +63,7 @@ def simulate(
 
     Raises PanelsimError for bad arguments and for a database of another ship.
     """
+    require_types(ship, database, supplementary, notes)
     require_run(
         speed=speed,
         duration=duration,

@@ -9,6 +9,8 @@ import numpy as np
 from panelsim.conventions import DOF_NAMES, Dof, FloatArray
 from panelsim.motion.history import History
 
+STILL = 1e-9  # m or rad: rounding, on any ship or model
+
 
 @dataclass(frozen=True)
 class SignalStatistics:
@@ -107,8 +109,8 @@ def zero_crossing_period(time: FloatArray, signal: FloatArray) -> float | None:
     `time` and `signal` (T,); crossings are interpolated linearly.
     """
     about_mean = signal - signal.mean()
-    # the round-off of a constant is no motion
-    if about_mean.std() <= 1e-12 * np.abs(signal).max():
+    # The round-off of a constant is no motion, nor is that of a motion that symmetry forbids.
+    if about_mean.std() <= max(1e-12 * np.abs(signal).max(), STILL):
         return None
     before = np.flatnonzero((about_mean[:-1] < 0.0) & (about_mean[1:] >= 0.0))
     if len(before) < 2:

@@ -26,7 +26,13 @@ class WaveComponents:
 
     def __post_init__(self) -> None:
         names = ("amplitude", "frequency", "wave_heading", "phase")
-        columns = np.broadcast_arrays(*(np.atleast_1d(np.asarray(getattr(self, n), float)) for n in names))
+        try:
+            given = (np.atleast_1d(np.asarray(getattr(self, name), float)) for name in names)
+            columns = np.broadcast_arrays(*given)
+        except (TypeError, ValueError) as error:
+            raise PanelsimError(
+                "The wave components are no arrays of numbers of one length", got=str(error)
+            ) from None
         for name, column in zip(names, columns, strict=True):
             if column.ndim != 1 or not np.isfinite(column).all():
                 raise PanelsimError(

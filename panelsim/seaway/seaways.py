@@ -24,6 +24,20 @@ class Seaway(Protocol):
     def components(self) -> WaveComponents: ...
 
 
+def require_heading(wave_heading: float) -> None:
+    """Refuse a heading that is no number, or is one of degrees."""
+    if (
+        not isinstance(wave_heading, float | int | np.floating | np.integer)
+        or not abs(wave_heading) <= 2 * np.pi
+    ):
+        raise PanelsimError(
+            "The wave heading is no angle in radians",
+            got=repr(wave_heading)[:60],
+            allowed="-2π to 2π rad",
+            remedy="turn degrees into radians, for example np.deg2rad(150)",
+        )
+
+
 @dataclass(frozen=True)
 class CalmSeaway:
     """Calm water: no waves at all."""
@@ -50,6 +64,7 @@ class RegularSeaway:
     kind = "regular"
 
     def __post_init__(self) -> None:
+        require_heading(self.wave_heading)
         for name in ("wave_amplitude", "wave_frequency"):
             if not (np.isfinite(getattr(self, name)) and getattr(self, name) > 0):
                 raise PanelsimError(f"{name} is not positive", got=getattr(self, name), allowed="more than 0")
@@ -99,10 +114,15 @@ class RandomSeaway:
     kind = "random"
 
     def __post_init__(self) -> None:
+        require_heading(self.wave_heading)
+        if isinstance(self.seed, bool) or not isinstance(self.seed, int | np.integer) or self.seed < 0:
+            raise PanelsimError("The seed is not a whole number", got=repr(self.seed), allowed="0, 1, 2 …")
+        if not 0.0 <= self.minimum_energy <= 1.0:
+            raise PanelsimError("minimum_energy is not a share", got=self.minimum_energy, allowed="0 to 1")
         frequencies = np.array(self.frequencies, dtype=float)
         frequencies.setflags(write=False)
         object.__setattr__(self, "frequencies", frequencies)
-        if frequencies.ndim != 1 or len(frequencies) < 2 or np.any(np.diff(frequencies) <= 0):
+        if frequencies.ndim != 1 or len(frequencies) < 2 or not np.all(np.diff(frequencies) > 0):
             raise PanelsimError("The wave frequencies do not rise, or are fewer than two", got=frequencies)
         if frequencies[0] <= 0:
             raise PanelsimError("A wave frequency is not positive", got=f"{frequencies[0]:g} rad/s")

@@ -92,6 +92,12 @@ def ship_warnings(ship: Ship) -> tuple[str, ...]:
         for name, radius in zip(reach, ship.gyradii, strict=True)
         if radius > reach[name]
     ]
+    forward, aft = ship.mesh.vertices[:, 0].max(), ship.mesh.vertices[:, 0].min()
+    if ship.form is None and abs(forward + aft) > 0.1 * (forward - aft):
+        warnings.append(
+            f"The middle of the mesh lies {0.5 * (forward + aft):.3g} m from the origin of hull axes, which"
+            " is midships: draft and trim are counted there. Is the origin of the mesh as meant?"
+        )
     straddling = ship.straddling_panels
     if ship.form is not None and straddling:
         warnings.append(

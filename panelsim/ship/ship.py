@@ -20,6 +20,8 @@ from panelsim.hull.hydrostatics import Hydrostatics, hydrostatics
 from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.hull.panelling import EndMissesWater
 
+MOST_TRIM = 0.5  # rad: beyond it the bow or the stern stands out of the water
+
 
 class Ship:
     """A loaded ship, floating at rest.
@@ -51,7 +53,7 @@ class Ship:
         form: HullForm | None = None,
     ) -> None:
         require_sound(mesh)
-        _require_loading(draft, center_of_gravity, gyradii, mass, water_density, gravity)
+        _require_loading(draft, center_of_gravity, gyradii, mass, trim, water_density, gravity)
         x, y, z = center_of_gravity
         if mass is None and x is not None:
             raise PanelsimError(
@@ -93,6 +95,7 @@ class Ship:
             )
         self.center_of_gravity: Final = np.array([x, y, z], dtype=float)
         self.mass: Final = float(afloat.displaced_mass if mass is None else mass)
+        _require_wet(self)
 
     @cached_property
     def rotation_from_hull(self) -> FloatArray:
@@ -222,20 +225,48 @@ def _require_loading(
     center_of_gravity: tuple[float | None, float, float],
     gyradii: tuple[float, float, float],
     mass: float | None,
+    trim: float,
     water_density: float,
     gravity: float,
 ) -> None:
     """Refuse what no ship can have."""
+    try:
+        radii = np.array(gyradii, dtype=float)
+        center = np.array([0.0 if c is None else c for c in center_of_gravity], dtype=float)
+        numbers = np.array([draft, trim, water_density, gravity, 0.0 if mass is None else mass], dtype=float)
+    except (TypeError, ValueError):
+        raise PanelsimError("The loading of the ship is not given in numbers") from None
+    if radii.shape != (3,) or center.shape != (3,) or None in center_of_gravity[1:]:
+        raise PanelsimError(
+            "Gyradii and centre of gravity are three numbers each",
+            got=f"gyradii {gyradii}, center_of_gravity {center_of_gravity}",
+            allowed="(roll, pitch, yaw) and (x, y, z) in m, of which x may be None",
+        )
     positive = {"draft": draft, "water_density": water_density, "gravity": gravity, "mass": mass}
-    positive |= {f"gyradius_{n}": r for n, r in zip(("roll", "pitch", "yaw"), gyradii, strict=True)}
+    positive |= {f"gyradius_{n}": float(r) for n, r in zip(("roll", "pitch", "yaw"), radii, strict=True)}
     for name, value in positive.items():
         if value is not None and not (np.isfinite(value) and value > 0):
             raise PanelsimError(f"The ship's {name} is not positive", got=value, allowed="more than 0")
-    if not all(c is None or np.isfinite(c) for c in center_of_gravity):
-        raise PanelsimError("The centre of gravity is not finite", got=center_of_gravity)
+    if not (np.isfinite(center).all() and np.isfinite(numbers).all()):
+        raise PanelsimError("The centre of gravity or the trim is not finite", got=(center_of_gravity, trim))
+    if abs(trim) > MOST_TRIM:
+        raise PanelsimError(
+            "No ship floats at this trim", got=f"{trim:g} rad", allowed=f"-{MOST_TRIM} to {MOST_TRIM} rad"
+        )
     if not 900.0 <= water_density <= 1100.0:
         raise PanelsimError(
             "This water density is not that of water",
             got=f"{water_density:g} kg/m3",
             allowed="900 to 1100 kg/m3 (fresh 1000, salt 1025)",
+        )
+
+
+def _require_wet(ship: Ship) -> None:
+    """Refuse a ship that floats on less than a row of its panels: its mass is meant in tonnes."""
+    wet = ship.to_ship_axes(ship.mesh.centroid)[:, 2] < ship.waterline
+    if not wet.any():
+        raise PanelsimError(
+            "No panel of the hull lies under the water at rest",
+            got=f"mass {ship.mass:g} kg, draft {ship.draft:.3g} m",
+            remedy="masses are in kg (4655 t are 4.655e6 kg), lengths in m; or take smaller panels",
         )

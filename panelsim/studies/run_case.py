@@ -17,11 +17,11 @@ from panelsim.motion.simulate import simulate
 from panelsim.results.statistics import Statistics, statistics
 from panelsim.studies.output_folder import make_output_folder, refuse_occupied_folder
 from panelsim.view.recording import record
-from panelsim.view.report import report
+from panelsim.view.report import PICTURES, report
 
 FILES = ("history.nc", "statistics.json", "report.md", "run.rrd")
-# They would be taken for those of the new run.
-MADE_BY_EXPORT = ("motions.csv", "loads.csv")
+# Those of an older run, whole or in part, would be taken for this one's.
+OLD_FILES = (*FILES, *PICTURES, "motions.csv", "loads.csv")
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ def run_case(
             notes=case.warnings(),
         )
     with _timed(seconds, "history and statistics"):
-        for name in MADE_BY_EXPORT:
+        for name in OLD_FILES:
             (folder / name).unlink(missing_ok=True)
         history.save(folder / "history.nc", overwrite=True)
         result = statistics(history)

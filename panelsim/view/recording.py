@@ -27,7 +27,7 @@ from scipy.spatial.transform import Rotation
 
 from panelsim.conventions import DOF_NAMES, FloatArray, IntArray
 from panelsim.errors import PanelsimError
-from panelsim.files import replacing
+from panelsim.files import write_whole
 from panelsim.motion.history import History
 from panelsim.results.statistics import display_unit, statistics
 from panelsim.results.tables import statistics_markdown
@@ -106,18 +106,17 @@ def record(history: History, path: str | Path, *, frames: int = 100) -> Recordin
     rows, film = choose_frames(history, frames)
     stream = rr.RecordingStream(APPLICATION_ID, recording_id=recording_id(history))
     tape = _Tape(stream, history, film)
-    with replacing(path) as beside:
-        stream.save(beside)
-        try:
-            _send_facts(stream, history)
-            _send_motions(tape)
-            _send_loads(tape)
-            _send_hull(tape, rows)
-            _send_sea(tape, rows)
-            middle = np.median(history.displacement[rows, :3], axis=0) if len(rows) else np.zeros(3)
-            stream.send_blueprint(ship_blueprint(length=float(history.loading["length"]), look_at=middle))
-        finally:
-            stream.disconnect()  # writes the footer, without which no viewer opens the file
+    memory = stream.memory_recording()
+    _send_facts(stream, history)
+    _send_motions(tape)
+    _send_loads(tape)
+    _send_hull(tape, rows)
+    _send_sea(tape, rows)
+    middle = np.median(history.displacement[rows, :3], axis=0) if len(rows) else np.zeros(3)
+    stream.send_blueprint(ship_blueprint(length=float(history.loading["length"]), look_at=middle))
+    content = memory.drain_as_bytes()
+    stream.disconnect()
+    write_whole(path, content)
     return RecordingSummary(
         path=path,
         recording_id=recording_id(history),

@@ -19,6 +19,8 @@ OUTCOME_SENTENCES = {
     "interrupted": "The run was interrupted.",
 }
 
+PICTURES = ("motions.png", "spectra.png", "loads.png")
+
 
 def report(history: History, folder: str | Path) -> Path:
     """Write report.md and its figures into `folder` and return the path of the page.
@@ -26,9 +28,8 @@ def report(history: History, folder: str | Path) -> Path:
     Everything comes from the history, so that a page can be made again from a saved run.
     """
     folder = Path(folder)
-    plot_motions(history, folder / "motions.png")
-    plot_spectra(history, folder / "spectra.png")
-    plot_loads(history, folder / "loads.png")
+    for name, plot in zip(PICTURES, (plot_motions, plot_spectra, plot_loads), strict=True):
+        plot(history, folder / name)
     path = folder / "report.md"
     with replacing(path) as beside:
         beside.write_text(_page(history), encoding="utf-8")
@@ -71,15 +72,16 @@ def _sea_in_short(history: History) -> str:
 
 
 def _outcome(history: History) -> str:
-    detail = history.attrs["outcome_detail"]
-    return f"**{OUTCOME_SENTENCES[history.outcome]}** {detail}".strip()
+    detail = str(history.attrs["outcome_detail"])
+    cause = f" {detail[0].upper()}{detail[1:]}." if detail else ""
+    return f"**{OUTCOME_SENTENCES[history.outcome]}**{cause}"
 
 
 def _motions_section(result: Statistics) -> str:
     height = result.significant_wave_height_realised
     text = f"From the ramp to the end, {result.duration:g} s. RMS about the mean."
     if height is not None:
-        text += f" The waves that the ship met had a significant height of {height:.2f} m."
+        text += f" The waves that the ship met had a significant height of {height:.3g} m."
     signs = "Positive: forward, to port, up; starboard down, bow down, bow to port."
     return f"{text} {signs}\n\n{statistics_markdown(result)}".rstrip()
 
@@ -89,11 +91,12 @@ def _facts(history: History) -> dict[str, str]:
     center, gyradii = loading["center_of_gravity"], loading["gyradii"]
     wet = history.mesh_vertices[history.panels][..., 2].mean(axis=1) < history.waterline
     return {
-        "ship": f"{history.ship_name}, length {loading['length']:.2f} m, beam {loading['beam']:.2f} m",
-        "draft at midships": f"{loading['draft']:.3f} m, trim {np.rad2deg(loading['trim']):.3f} deg bow down",
-        "mass": f"{loading['mass'] / 1000:.1f} t in water of {loading['water_density']:g} kg/m³",
-        "centre of gravity": f"{center[0]:.3f} m from midships, {center[2]:.3f} m above the baseline",
-        "gyradii": "roll {:.2f} m, pitch {:.2f} m, yaw {:.2f} m".format(*gyradii),
+        "ship": f"{history.ship_name}, length {loading['length']:.5g} m, beam {loading['beam']:.4g} m",
+        "draft at midships": f"{loading['draft']:.4g} m, {_trim(float(loading['trim']))}",
+        "mass": f"{_mass(float(loading['mass']))} in water of {loading['water_density']:g} kg/m³",
+        "centre of gravity": f"{abs(center[0]):.4g} m {'aft' if center[0] < 0 else 'forward'} of midships,"
+        f" {center[2]:.4g} m above the baseline",
+        "gyradii": "roll {:.4g} m, pitch {:.4g} m, yaw {:.4g} m".format(*gyradii),
         "mesh": f"{len(history.panels)} panels, {wet.sum()} of them in the water at rest",
         "sea": _sea(history),
         "wave heading": _heading(history),
@@ -104,6 +107,15 @@ def _facts(history: History) -> dict[str, str]:
         "seed": str(attrs.get("seed", "none")),
         "panelsim": str(attrs["panelsim_version"]),
     }
+
+
+def _trim(angle: float) -> str:
+    degrees = abs(np.rad2deg(angle))
+    return "no trim" if degrees < 5e-4 else f"trim {degrees:.3f} deg bow {'down' if angle > 0 else 'up'}"
+
+
+def _mass(kilograms: float) -> str:
+    return f"{kilograms:.4g} kg" if kilograms < 1000.0 else f"{kilograms / 1000:.1f} t"
 
 
 def _sea(history: History) -> str:
@@ -119,8 +131,8 @@ def _sea(history: History) -> str:
 def _wave_height(history: History) -> str:
     waves = history.components
     if waves.count == 1:
-        return f"height {2.0 * waves.amplitude[0]:.2f} m"
-    return f"significant height {4.0 * np.sqrt(waves.variance):.2f} m"
+        return f"height {2.0 * waves.amplitude[0]:.3g} m"
+    return f"significant height {4.0 * np.sqrt(waves.variance):.3g} m"
 
 
 def _heading(history: History) -> str:
