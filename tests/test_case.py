@@ -342,8 +342,20 @@ def test_a_mesh_without_loading_or_axes_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", bundled_hull_names())
 def test_the_template_of_every_bundled_hull_is_a_case(tmp_path: Path, name: str) -> None:
     form = load_hull(name)
-    case = case_of(tmp_path, case_template(form))
+    case = case_of(tmp_path, case_template(form, form.name))
     assert case.ship.draft == form.draft
     assert bool(case.warnings()) == (name in ("wigley_i", "wigley_iii"))  # their GM is negative
     # Without something that holds it on its course a ship under way turns beam to the waves.
     assert case.supplementary.stiffness["yaw"] > 0
+
+
+def test_an_override_holds_one_key(tmp_path: Path) -> None:
+    assert "more than one key" in refusal(tmp_path, RANDOM, "seaway.seed=7\nrun.x=3")
+    assert "more than one key" in refusal(tmp_path, RANDOM, "seaway.seed=7\n[run]\nx=3")
+    assert case_of(tmp_path, RANDOM, "seaway.seed=7").file.seaway.seed == 7
+
+
+@pytest.mark.parametrize("depth", [5000, 100_000])
+def test_what_is_nested_too_deeply_is_refused(tmp_path: Path, depth: int) -> None:
+    assert "not valid TOML" in refusal(tmp_path, f"x = {'[' * depth}{']' * depth}")
+    assert "nested too deeply" in refusal(tmp_path, RANDOM, f"x={'[' * depth}{']' * depth}")

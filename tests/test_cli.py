@@ -3,22 +3,28 @@
 import json
 import os
 import re
+import shlex
+import shutil
 import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from rich.console import Console
 
 from panelsim.cli import commands, main
 from panelsim.hull.form import bundled_hull_names, hull_folder, load_hull
 from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.motion.history import History
+from panelsim.results.statistics import statistics
+from panelsim.results.tables import statistics_markdown, statistics_table
 from panelsim.ship.ship import Ship
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "halifax_sea_state_7.toml"
@@ -119,6 +125,63 @@ def test_a_file_that_the_system_refuses_is_bad_input(call: Call, tmp_path: Path)
     refused(call("new", tmp_path / "file" / "case"), "file")
 
 
+def test_help_keeps_its_units(call: Call) -> None:
+    assert "[m2]" in call("hull", "--help").out
+    assert "[m]" in call("check", "--help").out
+
+
+@pytest.mark.parametrize(
+    ("error", "words"), [(MemoryError, "fewer components"), (RecursionError, "nested too deeply")]
+)
+def test_what_python_gives_up_on_is_one_message(
+    call: Call, monkeypatch: pytest.MonkeyPatch, error: type[Exception], words: str
+) -> None:
+    def fails(*_: object) -> None:
+        raise error
+
+    monkeypatch.setattr(commands, "load_ship", fails)
+    refused(call("hull", "box"), words)
+
+
+def started(*arguments: object, **environment: str) -> subprocess.Popen[str]:
+    """Start `python -m panelsim` as a process of its own."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "panelsim", *map(str, arguments)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, **environment},
+    )
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1"])
+def test_a_terminal_without_greek_letters_is_no_reason_to_fail(encoding: str) -> None:
+    out, err = started("hull", "frigate", "--panel-area", 20, PYTHONIOENCODING=encoding).communicate(
+        timeout=60
+    )
+    assert err == ""
+    assert "not compared" in out  # its row holds a dash that neither encoding knows
+
+
+def test_an_interrupt_while_panelsim_is_imported_ends_with_one_line() -> None:
+    code = (
+        "import builtins, os, signal, sys\n"
+        "from panelsim.cli import main\n"
+        "assert 'numpy' not in sys.modules\n"
+        "plain = builtins.__import__\n"
+        "def interrupted(name, *rest):\n"
+        "    if name == 'numpy': os.kill(os.getpid(), signal.SIGINT)\n"
+        "    return plain(name, *rest)\n"
+        "builtins.__import__ = interrupted\n"
+        "sys.argv = ['panelsim', '--version']\n"
+        "main()\n"
+    )
+    ended = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=60
+    )
+    assert (ended.returncode, ended.stdout, ended.stderr) == (130, "", "interrupted\n")
+
+
 # ---------------------------------------------------------------- new, check
 
 
@@ -146,6 +209,40 @@ def test_new_refuses_a_file_that_is_there_and_a_name_that_is_none(call: Call, tm
     assert (tmp_path / "mine.toml").read_text() == "kept"
     refused(call("new", ""), "no name")
     refused(call("new", tmp_path / "other", "--ship", "halifx"), "did you mean halifax?")
+
+
+def test_new_for_a_hull_folder_names_the_folder_not_the_bundled_hull(
+    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for place in ('my "hulls"/halifax', "halifax"):
+        shutil.copytree(hull_folder("box"), tmp_path / place)
+    for ship, entry in (
+        ('my "hulls"/halifax', r'"./my \"hulls\"/halifax"'),
+        ("./halifax", '"./halifax"'),  # "halifax" alone is the bundled hull
+        ("halifax", '"halifax"'),
+    ):
+        assert call("new", "cases/mine", "--ship", ship).code == 0
+        written = tmp_path / "cases" / "mine.toml"
+        expected = entry.replace('"./', '"../', 1)
+        assert f"hull = {expected}\n" in written.read_text()
+        length = json.loads(call("hull", written, "--json").out)["waterline_length"]
+        assert (length > 100) == (ship == "halifax")  # the box is 50 m long
+        written.unlink()
+    assert call("new", "here", "--ship", "./halifax").code == 0
+    assert 'hull = "./halifax"\n' in (tmp_path / "here.toml").read_text()
+
+
+def test_new_refuses_a_hull_folder_that_no_case_file_can_name(call: Call, tmp_path: Path) -> None:
+    folder = tmp_path / os.fsdecode(b"hull\xff")
+    shutil.copytree(hull_folder("box"), folder)
+    refused(call("new", tmp_path / "mine", "--ship", folder), "not UTF-8", "rename")
+    assert not (tmp_path / "mine.toml").exists()
+
+
+def test_new_says_what_to_type_next(call: Call, tmp_path: Path) -> None:
+    said = call("new", tmp_path / "my case").out
+    assert shlex.quote(str(tmp_path / "my case.toml")) in said
 
 
 def test_check_tells_ship_sea_and_run_on_80_columns(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -180,6 +277,16 @@ def test_check_of_a_mesh_needs_its_unit_and_axes(call: Call, tmp_path: Path, bar
     assert "closed: yes" in sound.out
 
 
+def test_check_refuses_what_it_would_have_to_ignore(call: Call, tmp_path: Path, barge: Ship) -> None:
+    path = tmp_path / "barge.stl"
+    barge.mesh.export(path)
+    for wave_length in ("-5", "0", "nan", "inf"):
+        refused(call("check", path, *MESH_OPTIONS, "--wave-length", wave_length), "wave length")
+    refused(call("check", path, *MESH_OPTIONS, "--set", "seaway.seed=7"), "seaway.seed=7")
+    refused(call("check", EXAMPLE, "--up", "z"), "mesh", "--up")
+    refused(call("check", tmp_path / "hull.igs"), ".stl", ".gdf", ".toml")
+
+
 def test_check_of_an_open_or_inward_mesh_ends_with_2(call: Call, tmp_path: Path, barge: Ship) -> None:
     mesh = barge.mesh
     faulty = {
@@ -204,6 +311,7 @@ def test_a_run_leaves_its_files_and_says_where_on_80_columns(
     assert {path.name for path in folder.iterdir()} == RUN_FILES | PICTURES
     table = [line for line in process.stdout.splitlines() if "│" in line]
     assert len(table) == 7  # six motions and the wave
+    assert "[s]" in process.stdout
     assert max(map(len, table)) <= 80
     text = " ".join(process.stdout.split())
     for words in (
@@ -213,6 +321,20 @@ def test_a_run_leaves_its_files_and_says_where_on_80_columns(
         "To watch: panelsim view",
     ):
         assert words in text
+
+
+def test_the_statistics_table_has_no_minus_zero_and_keeps_its_units(
+    finished: tuple[Path, subprocess.CompletedProcess[str]],
+) -> None:
+    found = statistics(History.load(finished[0] / "history.nc"))
+    tiny = replace(found.wave_elevation, mean=-1e-5)
+    markdown = statistics_markdown(replace(found, wave_elevation=tiny))
+    assert "| wave elevation | m | 0.000 |" in markdown
+    assert "-0.000" not in markdown
+    written = StringIO()
+    console = Console(file=written, width=120)  # one that reads markup, as a user's does
+    console.print(statistics_table(found))
+    assert "[s]" in written.getvalue()
 
 
 def test_statistics_json_has_units_in_its_keys(
@@ -426,7 +548,35 @@ def test_hull_exports_its_mesh_and_refuses_what_it_cannot(call: Call, tmp_path: 
     refused(call("hull", tmp_path / "box.stl"), "does not say how the ship floats", "[ship.mesh]")
     refused(call("hull", "halifx"), "did you mean halifax?")
     for area in ("1e9", "1e-9", "-1", "nan"):
-        refused(call("hull", "halifax", "--panel-area", area), "panel area")
+        result = call("hull", "halifax", "--panel-area", area)
+        refused(result, "panel area")
+        assert result.out == ""
+
+
+def test_an_exported_mesh_replaces_a_file_only_by_force(call: Call, tmp_path: Path) -> None:
+    path = tmp_path / "box.obj"
+    path.write_text("kept")
+    result = call("hull", "box", "--panel-area", 20, "--export", path)
+    refused(result, "exists already", "--force")
+    assert (result.out, path.read_text()) == ("", "kept")
+    refused(call("hull", "box", "--export", tmp_path / "none" / "box.obj"), "no such folder")
+    assert call("hull", "box", "--panel-area", 20, "--export", path, "--force").code == 0
+    assert path.read_text() != "kept"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_small_ships_weigh_kilograms_and_points_lie_forward_or_aft(call: Call) -> None:
+    sphere = call("hull", "sphere", "--panel-area", 2).out
+    wigley, frigate = call("hull", "wigley_iii").out, call("hull", "frigate", "--panel-area", 20).out
+    assert re.search(r"mass +\d+\.?\d* kg in water", wigley)
+    assert re.search(r"mass +\d+\.?\d* t in water", frigate)
+    assert re.search(r"mass in t +\d+", frigate)
+    assert re.search(r"\d m aft of midships", frigate)
+    assert "at midships" in sphere
+    for text in (sphere, wigley, frigate):
+        assert "center" not in text
+        assert not re.search(r"-0(\.0*)?(?![.\d])", text)
+        assert not re.search(r"-[\d.]+ m (forward|aft|above|below)", text)
 
 
 def test_hydro_refuses_before_it_computes(call: Call, tmp_path: Path) -> None:
@@ -452,16 +602,26 @@ def test_export_writes_the_history_as_csv(
     (tmp_path / "history.nc").write_bytes((finished[0] / "history.nc").read_bytes())
     refused(call("export", tmp_path), "--csv")
     assert call("export", tmp_path, "--csv").code == 0
+    written = (tmp_path / "motions.csv").read_bytes()
+    (tmp_path / "motions.csv").unlink()
+    refused(call("export", tmp_path, "--csv"), "loads.csv", "exists already", "--force")
+    assert not (tmp_path / "motions.csv").exists()
+    assert call("export", tmp_path / "history.nc", "--csv", "--force").code == 0
+    assert (tmp_path / "motions.csv").read_bytes() == written
     motions = np.loadtxt(tmp_path / "motions.csv", delimiter=",", skiprows=1)
     assert np.array_equal(motions[:, 0], History.load(tmp_path / "history.nc").time)
     assert (tmp_path / "loads.csv").is_file()
     refused(call("export", tmp_path / "none", "--csv"), "no such history file")
     (tmp_path / "history.nc").write_text("no history")
-    refused(call("export", tmp_path, "--csv"), "damaged or of another kind")
+    refused(call("export", tmp_path, "--csv", "--force"), "damaged or of another kind")
+    assert (tmp_path / "motions.csv").read_bytes() == written
 
 
 def test_view_opens_recordings_and_refuses_others(
-    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    call: Call,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    finished: tuple[Path, subprocess.CompletedProcess[str]],
 ) -> None:
     opened: list[Path] = []
 
@@ -471,10 +631,17 @@ def test_view_opens_recordings_and_refuses_others(
 
     monkeypatch.setattr("panelsim.view.viewer.open_viewer", open_viewer)
     first, second = tmp_path / "a.rrd", tmp_path / "b.rrd"
-    first.touch()
+    recording = (finished[0] / "run.rrd").read_bytes()
+    first.write_bytes(recording)
     refused(call("view", first, second), "no such recording")
     refused(call("view", tmp_path), "no such recording")
-    second.touch()
+    second.write_bytes(recording[: len(recording) // 2])
+    refused(call("view", first, second), "cut short", "b.rrd")
+    for content in (b"", b"garbage", b"no recording, but longer than a footer"):
+        second.write_bytes(content)
+        refused(call("view", first, second), "not a recording", "b.rrd")
+    assert opened == []
+    second.write_bytes(recording)
     assert call("view", first, second).code == 5  # the viewer's own exit code
     assert opened == [first, second]
 

@@ -50,6 +50,8 @@ def _read_toml(path: Path) -> dict[str, Any]:
             got=f"{path}: {error}{line}",
             remedy="write decimals with a point" if comma else None,
         ) from error
+    except RecursionError as error:
+        raise PanelsimError("The case file is not valid TOML", got=f"{path}: nested too deeply") from error
 
 
 def _lay_over(raw: dict[str, Any], override: str) -> None:
@@ -61,12 +63,18 @@ def _lay_over(raw: dict[str, Any], override: str) -> None:
             "An override is not of the form key=value", got=override, allowed="for example seaway.seed=7"
         )
     try:
-        value = tomllib.loads(f"value = {text}")["value"]
+        parsed = tomllib.loads(f"value = {text}")
     except tomllib.TOMLDecodeError:
-        value = text.strip()
+        parsed = {"value": text.strip()}
+    except RecursionError as error:
+        raise PanelsimError("An override is nested too deeply", got=path) from error
+    if parsed.keys() != {"value"}:
+        raise PanelsimError(
+            "An override holds more than one key", got=override, remedy="give each its own --set"
+        )
     table = raw
     for key in keys[:-1]:
         table = table.setdefault(key, {})
         if not isinstance(table, dict):
             raise PanelsimError(f"The override reaches into {key}, which is no table", got=override)
-    table[keys[-1]] = value
+    table[keys[-1]] = parsed["value"]

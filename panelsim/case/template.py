@@ -1,12 +1,45 @@
 """A commented case file to start from."""
 
+import json
+import os
+from pathlib import Path
+
 from panelsim.conventions import KNOT
-from panelsim.hull.form import HullForm, load_hull
+from panelsim.errors import PanelsimError
+from panelsim.hull.form import HullForm, bundled_hull_names, hull_folder, load_hull
 from panelsim.ship.bundled import default_panel_area
 
 
-def case_template(form: HullForm) -> str:
-    """Text of a case file for a bundled hull in a moderate sea that suits its length."""
+def hull_entry(name_or_path: str, case_file: Path) -> str:
+    """What `ship.hull` of a case file says: a bundled name, or the way from there to a hull folder.
+
+    Raises PanelsimError when it is neither, and for a folder whose name cannot stand in a case file.
+    """
+    if name_or_path in bundled_hull_names():
+        return name_or_path
+    folder = hull_folder(name_or_path)
+    if not _is_unicode(str(folder)):
+        raise PanelsimError(
+            "The name of the hull folder is not UTF-8", got=folder, remedy="rename the folder"
+        )
+    try:
+        way = Path(os.path.relpath(folder, case_file.resolve().parent)).as_posix()
+    except ValueError:  # on another drive
+        return folder.as_posix()
+    # The mark of a path keeps it from being read as a bundled name.
+    return way if way.startswith("..") else f"./{way}"
+
+
+def _is_unicode(name: str) -> bool:
+    """Whether a name is text: Python keeps other bytes of file names as lone surrogates."""
+    return not any("\ud800" <= letter <= "\udfff" for letter in name)
+
+
+def case_template(form: HullForm, hull: str) -> str:
+    """Text of a case file in a moderate sea that suits the length of a hull.
+
+    `hull` is its entry in the file, from `hull_entry`.
+    """
     # A sea whose peak wave is 1.5 ship lengths long, at a typical steepness (TM 2003-190 8.3: 0.021).
     wave_length = 1.5 * form.length_pp
     peak_period = round((wave_length / 1.561) ** 0.5, 1)
@@ -17,11 +50,11 @@ def case_template(form: HullForm) -> str:
     # A box or a sphere is no ship under way.
     speed = min(15.0, round(froude_quarter, 1)) if form.length_pp > 3.0 * form.beam else 0.0
     return f"""\
-# {form.title}
+# {" ".join(form.title.split())}
 # Check this file with `panelsim check`, run it with `panelsim run`.
 
 [ship]
-hull = "{form.name}"
+hull = {_toml_string(hull)}
 panel_area = {default_panel_area(form):.3g}              # m2, nominal
 # The loading comes from the hull's particulars; to change it, set for example
 # mass = …                      # kg; the ship then finds its own draft
@@ -52,6 +85,11 @@ ramp = 60                       # s over which the waves grow
 capsize_angle_deg = 90          # end the run there; 0 = never
 
 {_supplementary(form)}"""
+
+
+def _toml_string(text: str) -> str:
+    # TOML's basic strings are those of JSON, which does not escape the delete character.
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def _supplementary(form: HullForm) -> str:

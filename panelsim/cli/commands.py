@@ -1,6 +1,8 @@
 """The commands of the command line, and how each kind of end becomes an exit code."""
 
 import json
+import math
+import shlex
 import sys
 import time
 from pathlib import Path
@@ -11,17 +13,18 @@ import typer
 import panelsim
 from panelsim.case import Case
 from panelsim.case.ship_section import is_mesh_file
-from panelsim.case.template import case_template
+from panelsim.case.template import case_template, hull_entry
 from panelsim.cli.show import err, out, progress_bars, say, show_case, show_facts, show_result, warn
 from panelsim.errors import PanelsimError
 from panelsim.files import replacing
 from panelsim.hull.checks import check_mesh, require_sound
+from panelsim.hull.export import require_mesh_target
 from panelsim.hull.form import load_hull
 from panelsim.hull.particulars import FILE_NAME
-from panelsim.hull.readers import read_mesh
+from panelsim.hull.readers import SUFFIXES, read_mesh
 from panelsim.hydro.database import HydroDatabase
 from panelsim.motion.history import History
-from panelsim.results.export import history_to_csv
+from panelsim.results.export import CSV_FILES, history_to_csv
 from panelsim.ship.bundled import load_ship
 from panelsim.ship.facts import ship_facts
 from panelsim.ship.ship import Ship
@@ -29,13 +32,12 @@ from panelsim.studies.output_folder import make_output_folder, refuse_occupied_f
 
 EXIT_BAD_INPUT = 2
 EXIT_ENDED_EARLY = 3
-EXIT_INTERRUPTED = 130
 
 app = typer.Typer(
     help="Nonlinear panel-method, time-domain ship-motion solver.",
-    no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
+    rich_markup_mode=None,  # it takes the "[m]" of a unit for markup
 )
 
 Force = Annotated[bool, typer.Option("--force", help="Replace files that panelsim writes.")]
@@ -44,28 +46,35 @@ Overrides = Annotated[
 ]
 
 
-def main() -> None:
-    """Run the command line; bad input ends in one message and exit code 2, never a traceback."""
+def call() -> int:
+    """Call the command that the arguments of the program name; returns the exit code."""
     try:
-        code = app(standalone_mode=False)
+        code: int | None = app(standalone_mode=False)
     except PanelsimError as error:
-        code = _refuse(str(error))
+        return _refuse(str(error))
     except typer.TyperException as error:
-        # Its message is empty where the help has been printed already.
-        code = _refuse(error.format_message())
+        return _refuse(error.format_message())
     except OSError as error:
-        code = _refuse(f"{error.strerror or error}.\n  got: {error.filename or 'no file name'}")
-    except KeyboardInterrupt:
-        code = EXIT_INTERRUPTED
-    if code == EXIT_INTERRUPTED:
-        err.print("interrupted")
-    sys.exit(code)
+        return _refuse(f"{error.strerror or error}.\n  got: {error.filename or 'no file name'}")
+    except MemoryError:
+        remedy = "shorten the run, take a longer time_step or fewer components"
+        return _refuse(str(PanelsimError("There is not enough memory", remedy=remedy)))
+    except RecursionError:
+        return _refuse(str(PanelsimError("The input is nested too deeply")))
+    return code or 0
 
 
 def _refuse(message: str) -> int:
-    if message:
-        err.print(f"error: {message}", markup=False)
+    err.print(f"error: {message}")
     return EXIT_BAD_INPUT
+
+
+def _refuse_existing(path: Path, force: bool) -> None:
+    """Raise PanelsimError for a file that is there and may not be replaced, and for a folder."""
+    if path.is_dir():
+        raise PanelsimError("The output is a folder", got=path, allowed="the name of a file")
+    if path.exists() and not force:
+        raise PanelsimError("The file exists already", got=path, remedy="use --force to replace it")
 
 
 def _version(wanted: bool) -> None:
@@ -74,13 +83,16 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
+@app.callback(invoke_without_command=True)
 def _options(
+    context: typer.Context,
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
     ] = False,
 ) -> None:
-    pass
+    if context.invoked_subcommand is None:
+        err.print(context.get_help())
+        raise typer.Exit(EXIT_BAD_INPUT)
 
 
 @app.command()
@@ -96,10 +108,11 @@ def new(
         path = path.with_name(f"{path.name}.toml")
     if path.exists():
         raise PanelsimError("The case file exists already", got=path, remedy="choose another name")
-    text = case_template(load_hull(ship))
+    text = case_template(load_hull(ship), hull_entry(ship, path))
     with replacing(path) as beside:
         beside.write_text(text, encoding="utf-8")
-    out.print(f"Wrote {path}. Next: panelsim check {path}, then panelsim run {path}", markup=False)
+    quoted = shlex.quote(str(path))
+    out.print(f"Wrote {path}. Next: panelsim check {quoted}, then panelsim run {quoted}", soft_wrap=True)
 
 
 @app.command()
@@ -114,16 +127,36 @@ def check(
     ] = None,
     wave_length: Annotated[float | None, typer.Option(help="Mesh: shortest wave of the sea [m].")] = None,
 ) -> None:
-    """Read a case or a mesh, say what it is and what is wrong with it; run nothing."""
+    """Say what a case or a mesh is and what is wrong with it."""
     if is_mesh_file(what):
+        if overrides:
+            raise PanelsimError("A mesh file has no keys to override", got=f"--set {overrides[0]}")
         _check_mesh(what, length_unit, up, forward, symmetry, wave_length)
         return
+    _require_case_file(what)
+    if any(option is not None for option in (length_unit, up, forward, symmetry, wave_length)):
+        raise PanelsimError(
+            "An option for mesh files was given with a case file",
+            got=what,
+            remedy="leave out --length-unit, --up, --forward, --symmetry and --wave-length;"
+            " [ship.mesh] in the case says what they say",
+        )
     case = Case.load(what, overrides or ())
     show_facts(ship_facts(case.ship))
     show_case(case)
     warnings = case.warnings()
     warn(warnings)
     out.print("The case can be run; see the warnings." if warnings else "The case is sound.")
+
+
+def _require_case_file(path: Path) -> None:
+    """Raise PanelsimError for a file of another kind, by its suffix."""
+    if path.suffix not in ("", ".toml") and not path.is_dir():
+        raise PanelsimError(
+            "This is neither a case file nor a mesh file that panelsim reads",
+            got=path,
+            allowed=f"a case file, .toml, or a mesh file, {', '.join(SUFFIXES)}",
+        )
 
 
 def _check_mesh(
@@ -140,8 +173,12 @@ def _check_mesh(
             got=path,
             remedy="give all three, for example --length-unit m --up z --forward x",
         )
+    if wave_length is not None and not (math.isfinite(wave_length) and wave_length > 0.0):
+        raise PanelsimError(
+            "The wave length is not possible", got=f"{wave_length:g} m", allowed="more than 0 m"
+        )
     mesh = read_mesh(path, length_unit=length_unit, up=up, forward=forward, symmetry=symmetry)
-    out.print(check_mesh(mesh, wave_length=wave_length).summary(), markup=False)
+    out.print(check_mesh(mesh, wave_length=wave_length).summary())
     require_sound(mesh)
 
 
@@ -154,7 +191,10 @@ def run(
     force: Force = False,
     overrides: Overrides = None,
 ) -> None:
-    """Run a case: history.nc, statistics.json, report.md with plots, run.rrd."""
+    """Run a case; write history, statistics, report, recording.
+
+    The files are history.nc, statistics.json, report.md with plots, run.rrd.
+    """
     from panelsim.studies.run_case import run_case  # brings matplotlib and rerun
 
     imports = time.process_time()
@@ -174,7 +214,7 @@ def run(
     show_result(result, known=warnings, imports=imports)
     if result.history.outcome != "finished":
         detail = result.statistics.outcome_detail
-        err.print(f"The run ended early: {result.history.outcome}, {detail}", markup=False)
+        err.print(f"The run ended early: {result.history.outcome}, {detail}")
         raise typer.Exit(EXIT_ENDED_EARLY)
 
 
@@ -184,9 +224,15 @@ def hull(
     panel_area: Annotated[float | None, typer.Option(help="Nominal panel area [m2].")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     export: Annotated[Path | None, typer.Option(help="Write the mesh: .stl .obj .ply .glb .gdf")] = None,
+    force: Force = False,
 ) -> None:
-    """Panel a hull and print its particulars at rest, beside the published ones."""
+    """Print particulars of a hull at rest beside published ones."""
+    if export is not None:
+        require_mesh_target(export)
+        _refuse_existing(export, force)
     ship = _ship_of(what, panel_area)
+    if export is not None:
+        ship.mesh.export(export)
     facts = ship_facts(ship)
     if as_json:
         sys.stdout.write(json.dumps(facts.as_dict(), indent=2, allow_nan=False) + "\n")
@@ -196,8 +242,7 @@ def hull(
             say(f"assumed: {sentence}")
         warn(facts.warnings)
     if export is not None:
-        ship.mesh.export(export)
-        err.print(f"Wrote {export}", markup=False)
+        err.print(f"Wrote {export}")
 
 
 @app.command()
@@ -208,19 +253,14 @@ def hydro(
     force: Force = False,
 ) -> None:
     """Compute the hydrodynamic coefficients of a ship and store them."""
-    if output.is_dir():
-        raise PanelsimError(
-            "The output is a folder", got=output, allowed="a file, for example coefficients.nc"
-        )
-    if output.exists() and not force:
-        raise PanelsimError("The file exists already", got=output, remedy="use --force to replace it")
+    _refuse_existing(output, force)
     ship = _ship_of(what)
     make_output_folder(output.parent)
     with progress_bars() as track:
         database = HydroDatabase.compute(ship, method, progress=track("hydrodynamic coefficients"))
     database.save(output)
     top = database.frequencies.max()
-    out.print(f"Wrote {output}: {len(database.frequencies)} frequencies to {top:.2f} rad/s", markup=False)
+    out.print(f"Wrote {output}: {len(database.frequencies)} frequencies to {top:.2f} rad/s")
 
 
 @app.command()
@@ -229,21 +269,27 @@ def view(recordings: Annotated[list[Path], typer.Argument(help="Recordings (.rrd
     for path in recordings:
         if not path.is_file() or path.suffix != ".rrd":
             raise PanelsimError("There is no such recording", got=path, allowed="files ending in .rrd")
-    from panelsim.view.viewer import open_viewer  # brings rerun
+    from panelsim.view.viewer import open_viewer, require_whole  # brings rerun
 
+    for path in recordings:
+        require_whole(path)
     raise typer.Exit(open_viewer(recordings))
 
 
 @app.command()
 def export(
-    folder: Annotated[Path, typer.Argument(help="Output folder of a run.")],
+    run_folder: Annotated[Path, typer.Argument(help="Output folder of a run, or its history.nc.")],
     csv: Annotated[bool, typer.Option("--csv", help="Write motions.csv and loads.csv.")] = False,
+    force: Force = False,
 ) -> None:
     """Turn a saved history into other formats."""
     if not csv:
         raise PanelsimError("No format was asked for", allowed="--csv")
-    for path in history_to_csv(History.load(folder / "history.nc"), folder):
-        out.print(f"Wrote {path}", markup=False)
+    file = run_folder if run_folder.is_file() else run_folder / "history.nc"
+    for name in CSV_FILES:
+        _refuse_existing(file.parent / name, force)
+    for path in history_to_csv(History.load(file), file.parent):
+        out.print(f"Wrote {path}")
 
 
 def _ship_of(what: str, panel_area: float | None = None) -> Ship:

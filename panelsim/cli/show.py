@@ -1,5 +1,6 @@
 """What the command line prints: facts of a ship, of a case, of a run, on 80 columns."""
 
+import shlex
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,19 +19,23 @@ from panelsim.ship.facts import Published, ShipFacts
 if TYPE_CHECKING:  # it brings matplotlib and rerun
     from panelsim.studies.run_case import RunOutput
 
-out = Console(highlight=False)
-err = Console(stderr=True, highlight=False, soft_wrap=True)
+# Without markup: "[m]" is a unit, and a case may be named "[bold]".
+out = Console(highlight=False, markup=False)
+err = Console(stderr=True, highlight=False, markup=False, soft_wrap=True)
+
+TONNE = 1000.0  # kg
+ROUNDING = 1e-6  # m: a micrometre is rounding
 
 
 def say(text: str) -> None:
     """Print a sentence, wrapped to the terminal."""
-    out.print(text, markup=False)
+    out.print(text)
 
 
 def warn(sentences: Iterable[str]) -> None:
     """Print warnings on standard error."""
     for sentence in sentences:
-        err.print(f"warning: {sentence}", markup=False)
+        err.print(f"warning: {sentence}")
 
 
 @contextmanager
@@ -55,16 +60,16 @@ def show_facts(facts: ShipFacts) -> None:
     cb, cf = facts.center_of_buoyancy, facts.center_of_flotation
     rows = {
         "panels wet, total": f"{facts.panels_wet}, {facts.panels_total}",
-        "mass": f"{facts.mass / 1000:.6g} t in water of {facts.water_density:g} kg/m3",
+        "mass": f"{_mass(facts.mass)} in water of {facts.water_density:g} kg/m3",
         "displaced volume": f"{facts.displaced_volume:.6g} m3",
-        "draft, trim by stern": f"{facts.draft:.4g} m, {facts.trim_by_stern:.4g} m",
+        "draft, trim by stern": f"{_metres(facts.draft)}, {_metres(facts.trim_by_stern)}",
         "centre of gravity": _forward_and_up(facts.center_of_gravity),
         "centre of buoyancy": _forward_and_up(cb),
-        "centre of flotation": f"{_metres(cf[0])} forward of midships",
+        "centre of flotation": _along(cf[0]),
         "waterline length, beam": f"{facts.waterline_length:.5g} m, {facts.waterline_beam:.5g} m",
         "waterplane, wetted surface": f"{facts.waterplane_area:.6g} m2, {facts.wetted_surface:.6g} m2",
         "block coefficient": f"{facts.block_coefficient:.4f}",
-        "GM transverse, longitudinal": f"{facts.gm_transverse:.4g} m, {facts.gm_longitudinal:.4g} m",
+        "GM transverse, longitudinal": f"{_metres(facts.gm_transverse)}, {_metres(facts.gm_longitudinal)}",
     }
     _show_rows(f"{facts.name}, at rest in calm water", rows)
     if facts.published:
@@ -72,21 +77,39 @@ def show_facts(facts: ShipFacts) -> None:
 
 
 def _forward_and_up(point: tuple[float, ...]) -> str:
-    return f"{_metres(point[0])} forward of midships, {_metres(point[2])} above the baseline"
+    side = "below" if point[2] < -ROUNDING else "above"
+    return f"{_along(point[0])}, {_metres(abs(point[2]))} {side} the baseline"
+
+
+def _along(x: float) -> str:
+    if abs(x) < ROUNDING:
+        return "at midships"
+    return f"{_metres(abs(x))} {'forward' if x > 0.0 else 'aft'} of midships"
 
 
 def _metres(value: float) -> str:
-    # A micrometre is rounding, and there is no -0.
-    return f"{round(value, 6) + 0.0:.4g} m"
+    return f"{_number(value, 4)} m"
+
+
+def _mass(kilograms: float) -> str:
+    return f"{kilograms:.4g} kg" if kilograms < TONNE else f"{kilograms / TONNE:.6g} t"
+
+
+def _number(value: float, digits: int) -> str:
+    """A number in so many digits, without rounding noise and without a -0."""
+    return f"{0.0 if abs(value) < ROUNDING else value:.{digits}g}"
 
 
 def _show_published(published: Mapping[str, Published]) -> None:
     table = Table("in SI units", "published", "here", "difference", box=None, padding=(0, 2))
-    for name, entry in published.items():
-        here = "–" if entry.here is None else f"{entry.here:.6g}"
+    for key, entry in published.items():
+        name, scale = key.replace("_", " ").replace("center", "centre"), 1.0
+        if key == "mass" and entry.published >= TONNE:
+            name, scale = "mass in t", 1 / TONNE
+        here = "–" if entry.here is None else _number(scale * entry.here, 6)
         relative = entry.relative_difference
-        difference = "not compared" if relative is None else f"{100 * relative:+.2f} %"
-        table.add_row(name.replace("_", " "), f"{entry.published:.6g}", here, difference)
+        difference = "not compared" if relative is None else f"{100 * relative:+z.2f} %"
+        table.add_row(name, _number(scale * entry.published, 6), here, difference)
     out.print(table)
 
 
@@ -165,9 +188,10 @@ def show_result(result: "RunOutput", known: Sequence[str], imports: float) -> No
         if note not in known:
             say(f"note: {note}")
     files = ", ".join(f"{name} ({_size(result.folder / name)})" for name in result.files)
-    out.print(f"Files in {result.folder}:", markup=False, soft_wrap=True)
+    out.print(f"Files in {result.folder}:", soft_wrap=True)
     say(f"  {files}")
-    out.print(f"To watch: panelsim view {result.folder / 'run.rrd'}", markup=False, soft_wrap=True)
+    recording = shlex.quote(str(result.folder / "run.rrd"))
+    out.print(f"To watch: panelsim view {recording}", soft_wrap=True)
 
 
 def _size(path: Path) -> str:

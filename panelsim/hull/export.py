@@ -1,12 +1,12 @@
 """Writer of meshes for other programs."""
 
-import os
 from pathlib import Path
 
 import numpy as np
 
 from panelsim.conventions import IntArray
 from panelsim.errors import PanelsimError
+from panelsim.files import replacing
 from panelsim.hull.gdf import gdf_text
 from panelsim.hull.obj import obj_text
 from panelsim.hull.panel_mesh import PanelMesh
@@ -24,8 +24,14 @@ def write_mesh(mesh: PanelMesh, path: str | Path) -> None:
     unknown suffix and a folder that does not exist.
     """
     path = Path(path)
-    suffix = path.suffix.lower()
-    if suffix not in SUFFIXES:
+    require_mesh_target(path)
+    with replacing(path) as beside:
+        beside.write_bytes(_content(mesh, path.suffix.lower()))
+
+
+def require_mesh_target(path: Path) -> None:
+    """Raise PanelsimError for an unknown suffix and a folder that does not exist."""
+    if path.suffix.lower() not in SUFFIXES:
         raise PanelsimError(
             "A mesh cannot be written to this kind of file",
             got=path.suffix or f"no suffix in {path.name!r}",
@@ -33,9 +39,6 @@ def write_mesh(mesh: PanelMesh, path: str | Path) -> None:
         )
     if not path.parent.is_dir():
         raise PanelsimError("There is no such folder to write to", got=path.parent)
-    unfinished = path.with_name(f".{path.name}.unfinished")
-    unfinished.write_bytes(_content(mesh, suffix))
-    os.replace(unfinished, path)
 
 
 def _content(mesh: PanelMesh, suffix: str) -> bytes:

@@ -11,12 +11,13 @@ from panelsim.motion.history import History
 
 MOTION_UNITS = ("m",) * 3 + ("rad",) * 3
 LOAD_UNITS = ("N",) * 3 + ("N m",) * 3
+CSV_FILES = ("motions.csv", "loads.csv")
 
 
 def history_to_csv(history: History, folder: str | Path) -> tuple[Path, Path]:
-    """Write motions.csv and loads.csv into `folder`, units in the header, and return their paths.
+    """Write motions.csv and loads.csv into `folder`, both or neither, and return their paths.
 
-    SI and radians; every number with the digits that give it back bit for bit.
+    Units in the header, SI and radians; every number with the digits that give it back bit for bit.
     """
     motions = [("time [s]", history.time), ("wave_elevation [m]", history.wave_elevation)]
     for name, suffix in (("displacement", ""), ("velocity", "/s"), ("acceleration", "/s2")):
@@ -24,8 +25,11 @@ def history_to_csv(history: History, folder: str | Path) -> tuple[Path, Path]:
     loads = [("time [s]", history.time)]
     for name, values in history.loads.items():
         loads += _columns(name, LOAD_UNITS, values)
-    folder = Path(folder)
-    return _write(folder / "motions.csv", motions), _write(folder / "loads.csv", loads)
+    motions_path, loads_path = (Path(folder) / name for name in CSV_FILES)
+    with replacing(motions_path) as motions_beside, replacing(loads_path) as loads_beside:
+        _write(motions_beside, motions)
+        _write(loads_beside, loads)
+    return motions_path, loads_path
 
 
 def _columns(name: str, units: Sequence[str], values: FloatArray) -> list[tuple[str, FloatArray]]:
@@ -33,10 +37,6 @@ def _columns(name: str, units: Sequence[str], values: FloatArray) -> list[tuple[
     return list(zip(heads, values.T, strict=True))
 
 
-def _write(path: Path, columns: list[tuple[str, FloatArray]]) -> Path:
+def _write(path: Path, columns: list[tuple[str, FloatArray]]) -> None:
     heads, values = zip(*columns, strict=True)
-    with replacing(path) as beside:
-        np.savetxt(
-            beside, np.column_stack(values), fmt="%s", delimiter=",", header=",".join(heads), comments=""
-        )
-    return path
+    np.savetxt(path, np.column_stack(values), fmt="%s", delimiter=",", header=",".join(heads), comments="")
