@@ -439,15 +439,17 @@ def test_a_run_that_ends_early_keeps_its_files_and_ends_with_3(
     assert json.loads((tmp_path / "run" / "statistics.json").read_text())["outcome"] == outcome
 
 
-def interrupt_during(monkeypatch: pytest.MonkeyPatch, stage: str) -> None:
-    """Send this process a real SIGINT when the progress of a stage is first told."""
+def interrupt_during(
+    monkeypatch: pytest.MonkeyPatch, stage: str, number: signal.Signals = signal.SIGINT
+) -> None:
+    """Send this process a real signal when the progress of a stage is first told."""
 
     @contextmanager
     def bars() -> Iterator[Callable[[str], Callable[[float, float], None]]]:
         def track(label: str) -> Callable[[float, float], None]:
             def update(done: float, total: float) -> None:
                 if label == stage:
-                    os.kill(os.getpid(), signal.SIGINT)
+                    os.kill(os.getpid(), number)
 
             return update
 
@@ -456,10 +458,12 @@ def interrupt_during(monkeypatch: pytest.MonkeyPatch, stage: str) -> None:
     monkeypatch.setattr(commands, "progress_bars", bars)
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupt_during_the_run_keeps_what_was_computed(
-    call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    number: signal.Signals, call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    interrupt_during(monkeypatch, "run")
+    """Ctrl-C, and the signal by which a batch queue ends a run."""
+    interrupt_during(monkeypatch, "run", number)
     result = call("run", EXAMPLE, "--out", tmp_path / "run", *QUICK, "--set", "run.duration=5000")
     assert result.code == 3
     assert "interrupted, stopped by the user" in result.err

@@ -1,5 +1,6 @@
 """The command line: panelsim new, check, run, hull, hydro, view, export."""
 
+import signal
 import sys
 from io import TextIOWrapper
 
@@ -12,6 +13,8 @@ def main() -> None:
         # A terminal that has no letter for "ω" shows a question mark.
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")
+    # A batch queue that ends a run asks in this way: what was computed is kept as after Ctrl-C.
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         # Imported here, because that takes a second, and it may be interrupted.
         from panelsim.cli.commands import call
@@ -19,6 +22,8 @@ def main() -> None:
         code = call()
     except KeyboardInterrupt:
         code = EXIT_INTERRUPTED
+    finally:
+        signal.signal(signal.SIGTERM, before)
     if code == EXIT_INTERRUPTED:
         sys.stderr.write("interrupted\n")
     sys.exit(code)
