@@ -1,10 +1,13 @@
 """Rotations and conjugate moments: signs, order, and virtual work."""
 
+from importlib.metadata import version
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import panelsim
 from panelsim.conventions import load_to_earth, rotation_to_earth
 from panelsim.errors import PanelsimError
 
@@ -56,3 +59,8 @@ def test_error_carries_all_four_parts() -> None:
     message = str(PanelsimError("Too steep", got="0.2", allowed="0.142", remedy="lower it"))
     for part in ("Too steep.", "0.2", "0.142", "lower it"):
         assert part in message
+
+
+def test_the_package_and_its_metadata_state_one_version() -> None:
+    """A history takes its version from the metadata, `panelsim --version` from the package."""
+    assert version("panelsim") == panelsim.__version__

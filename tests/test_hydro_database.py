@@ -8,11 +8,12 @@ import xarray as xr
 
 from panelsim.conventions import STANDARD_GRAVITY
 from panelsim.errors import PanelsimError
-from panelsim.hull.form import load_hull
+from panelsim.hull.form import hull_folder, load_hull
 from panelsim.hull.refine import subdivided
 from panelsim.hydro.bem import highest_resolved_frequency
 from panelsim.hydro.database import HydroDatabase, _panelled_for_solution, frequency_grid
 from panelsim.hydro.memory import memory_functions
+from panelsim.hydro.store import STORED_NAME
 from panelsim.ship.bundled import load_ship
 from panelsim.ship.ship import Ship
 
@@ -51,6 +52,8 @@ def test_axes_are_those_of_the_ship(database: HydroDatabase) -> None:
     assert a[3, 3] == pytest.approx(a[1, 1] * height**2, rel=0.06)
     # A sphere has none; the edges of this coarse polyhedron, resolved by panels split in four, a little.
     assert abs(a[5, 5]) < 0.01 * a[3, 3]
+    smooth = HydroDatabase.load(hull_folder("sphere") / STORED_NAME).added_mass_infinite
+    assert abs(smooth[5, 5]) < 1e-5 * smooth[3, 3]
 
 
 def test_shapes_and_limits(database: HydroDatabase) -> None:
