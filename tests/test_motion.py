@@ -12,15 +12,17 @@ from scipy.optimize import brentq
 from panelsim.conventions import DOF_NAMES, KNOT
 from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.diffraction import diffraction_load
 from panelsim.hydro.memory import memory_functions
 from panelsim.hydro.store import database_for
+from panelsim.loads.froude_krylov import froude_krylov_transfer
 from panelsim.loads.radiation import speed_coupling
 from panelsim.loads.supplementary import Supplementary
 from panelsim.motion.history import History
 from panelsim.motion.march import Limits
 from panelsim.motion.simulate import simulate
 from panelsim.seaway.components import WaveComponents
-from panelsim.seaway.seaways import Bretschneider, CalmSeaway, RandomSeaway
+from panelsim.seaway.seaways import Bretschneider, CalmSeaway, RandomSeaway, RegularSeaway
 from panelsim.ship.bundled import load_ship
 from panelsim.ship.ship import Ship
 
@@ -392,3 +394,35 @@ def test_a_ship_under_way_without_a_yaw_spring_is_warned_of_and_broaches(run_hal
     assert any("Munk" in note for note in history.notes)
     assert history.outcome == "diverged"
     assert "broached" in history.attrs["outcome_detail"]
+
+
+def test_linear_wave_loads_turn_at_the_encounter_frequency_of_the_ships_gravity(
+    halifax_database: HydroDatabase,
+) -> None:
+    """Re a X exp(i(ω_e t + ε)) with ω_e = ω + U ω²/g: less gravity, faster head waves."""
+    gravity, speed, omega = 4.9, 8.0, 0.6
+    ship = load_ship("halifax", 20.0, gravity=gravity)
+    database = HydroDatabase(halifax_database.dataset.assign_attrs(gravity=gravity, ship_gravity=gravity))
+    wave = RegularSeaway(0.01, omega, np.pi, phase=0.4)
+    history = simulate(
+        ship,
+        wave,
+        speed=speed,
+        duration=20.0,
+        time_step=0.2,
+        ramp=0.0,
+        model="linear",
+        database=database,
+        supplementary=Supplementary.of(ship),
+    )
+    encounter = omega + speed * omega**2 / gravity
+    turning = 0.01 * np.exp(1j * (encounter * history.time + 0.4))
+    parts = {
+        "diffraction": diffraction_load(database, np.array([omega]), np.array([np.pi]), speed)[0],
+        "froude_krylov": froude_krylov_transfer(ship, wave.components)[0],
+    }
+    for name, transfer in parts.items():
+        expected = (turning[:, None] * transfer).real
+        np.testing.assert_allclose(
+            history.loads[name], expected, atol=1e-9 * np.abs(expected).max(), err_msg=name
+        )
