@@ -24,11 +24,11 @@ _HOMES = {
     "equilibrium": "hull.equilibrium",
     "Ship": "ship.ship",
     "load_ship": "ship.bundled",
-    "Bretschneider": "seaway.spectra",
+    "Bretschneider": "seaway.spectra.bretschneider",
     "WaveComponents": "seaway.components",
     "CalmSeaway": "seaway.seaways",
-    "RegularSeaway": "seaway.seaways",
-    "RandomSeaway": "seaway.seaways",
+    "RegularSeaway": "seaway.regular",
+    "RandomSeaway": "seaway.random",
     "HydroDatabase": "hydro.database",
     "database_for": "hydro.store",
     "pressure_force": "loads.wetted_surface",
@@ -65,10 +65,10 @@ if TYPE_CHECKING:
     from panelsim.motion.simulate import simulate as simulate
     from panelsim.results.statistics import statistics as statistics
     from panelsim.seaway.components import WaveComponents as WaveComponents
+    from panelsim.seaway.random import RandomSeaway as RandomSeaway
+    from panelsim.seaway.regular import RegularSeaway as RegularSeaway
     from panelsim.seaway.seaways import CalmSeaway as CalmSeaway
-    from panelsim.seaway.seaways import RandomSeaway as RandomSeaway
-    from panelsim.seaway.seaways import RegularSeaway as RegularSeaway
-    from panelsim.seaway.spectra import Bretschneider as Bretschneider
+    from panelsim.seaway.spectra.bretschneider import Bretschneider as Bretschneider
     from panelsim.ship.bundled import load_ship as load_ship
     from panelsim.ship.ship import Ship as Ship
     from panelsim.view.recording import record as record

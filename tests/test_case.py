@@ -10,7 +10,9 @@ from panelsim.case import Case
 from panelsim.case.template import case_template
 from panelsim.errors import PanelsimError
 from panelsim.hull.form import bundled_hull_names, load_hull
-from panelsim.seaway.seaways import CalmSeaway, RandomSeaway, RegularSeaway
+from panelsim.seaway.random import RandomSeaway
+from panelsim.seaway.regular import RegularSeaway
+from panelsim.seaway.seaways import CalmSeaway
 from panelsim.ship.ship import Ship
 
 RANDOM = """

@@ -17,7 +17,8 @@ from panelsim.loads.supplementary import Supplementary
 from panelsim.loads.weight import Weight
 from panelsim.loads.wetted_surface import WettedSurface, pressure_force
 from panelsim.seaway.components import NO_WAVES, WaveComponents
-from panelsim.seaway.seaways import CalmSeaway, RegularSeaway
+from panelsim.seaway.regular import RegularSeaway
+from panelsim.seaway.seaways import CalmSeaway
 from panelsim.ship.bundled import load_ship
 from panelsim.ship.ship import Ship
 

@@ -22,7 +22,10 @@ from panelsim.motion.history import History
 from panelsim.motion.march import Limits
 from panelsim.motion.simulate import simulate
 from panelsim.seaway.components import WaveComponents
-from panelsim.seaway.seaways import Bretschneider, CalmSeaway, RandomSeaway, RegularSeaway
+from panelsim.seaway.random import RandomSeaway
+from panelsim.seaway.regular import RegularSeaway
+from panelsim.seaway.seaways import CalmSeaway
+from panelsim.seaway.spectra.bretschneider import Bretschneider
 from panelsim.ship.bundled import load_ship
 from panelsim.ship.ship import Ship
 
@@ -170,7 +173,8 @@ import numpy as np
 from panelsim.hydro.store import database_for
 from panelsim.motion.simulate import simulate
 from panelsim.seaway.components import WaveComponents
-from panelsim.seaway.seaways import Bretschneider, RandomSeaway
+from panelsim.seaway.random import RandomSeaway
+from panelsim.seaway.spectra.bretschneider import Bretschneider
 from panelsim.ship.bundled import load_ship
 
 ship = load_ship("halifax", 2.5)

@@ -7,8 +7,9 @@ from scipy.integrate import quad
 from panelsim.conventions import KNOT, STANDARD_GRAVITY
 from panelsim.errors import PanelsimError
 from panelsim.seaway.components import WaveComponents, repeat_time
-from panelsim.seaway.seaways import RandomSeaway, RegularSeaway
-from panelsim.seaway.spectra import Bretschneider
+from panelsim.seaway.random import RandomSeaway
+from panelsim.seaway.regular import RegularSeaway
+from panelsim.seaway.spectra.bretschneider import Bretschneider
 from panelsim.seaway.translating import TranslatingSeaway
 
 GRID = 0.1 * np.arange(2, 21)

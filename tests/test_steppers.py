@@ -8,7 +8,8 @@ import pytest
 from panelsim.conventions import KNOT
 from panelsim.motion.history import History
 from panelsim.motion.steppers import rk4_step
-from panelsim.seaway.seaways import Bretschneider, RandomSeaway
+from panelsim.seaway.random import RandomSeaway
+from panelsim.seaway.spectra.bretschneider import Bretschneider
 
 OMEGA, DECAY, FORCED = 1.3, 0.08, 0.7  # rad/s, 1/s, rad/s
 

@@ -15,8 +15,11 @@ from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase, Progress
 from panelsim.hydro.store import database_for
 from panelsim.loads.supplementary import Supplementary
-from panelsim.seaway.seaways import CalmSeaway, RandomSeaway, RegularSeaway, Seaway
-from panelsim.seaway.spectra import BUCKLEY_STEEPNESS, Bretschneider
+from panelsim.seaway.random import RandomSeaway
+from panelsim.seaway.regular import RegularSeaway
+from panelsim.seaway.seaways import CalmSeaway, Seaway
+from panelsim.seaway.spectra.bretschneider import Bretschneider
+from panelsim.seaway.steepness import BUCKLEY_STEEPNESS
 from panelsim.ship.bundled import default_panel_area
 from panelsim.ship.facts import ship_warnings
 from panelsim.ship.ship import Ship

@@ -5,9 +5,8 @@ at zero pressure, through their responses (`tables.PanelTables`); then, for the 
 surface cuts, the exact integral over the wet part of their triangles minus what the sum has
 already counted. Inside, pressures are heads p/(ρ g) [m] and phases are in turns.
 
-Vertices go eight at a time, written so that the compiler packs them into vector registers: plain
-arithmetic, polynomials for cos and exp, no fast-math. Whether it packs the two loops over the
-components depends on the code around them, so measure the speed after any change here.
+Vertices go eight at a time (`lanes`). Whether the compiler packs the two loops over the components
+into vector registers depends on the code around them, so measure the speed after any change here.
 
 Taichi reads the annotations of this module itself: no `from __future__ import annotations`.
 """
@@ -16,6 +15,7 @@ import numpy as np
 
 from panelsim.conventions import SPLIT_WEIGHT, FloatArray
 from panelsim.kernels import runtime
+from panelsim.kernels.lanes import Lanes, cos_of_turns, exp2
 from panelsim.kernels.tables import (
     LANES,
     PanelTables,
@@ -28,7 +28,6 @@ ti = runtime.import_taichi()
 
 LANE_BITS = LANES.bit_length() - 1  # LANES is a power of two
 
-Lanes = ti.types.vector(LANES, ti.f64)
 Matrix = ti.types.ndarray(dtype=ti.f64, ndim=2)
 Blocks = ti.types.ndarray(dtype=ti.f64, ndim=3)
 Corners = ti.types.ndarray(dtype=ti.i32, ndim=2)
@@ -44,38 +43,6 @@ SUBMERGENCE, HEAD = 0, 1
 # Columns of the exchange: a pose goes in, a load comes out.
 TIME, WAVE_FACTOR, DISPLACEMENT, LOAD = 0, 1, 2, 8
 EXCHANGE_COLUMNS = LOAD + 6
-
-# cos(2π r) = s P(s²), s = 1/4 - |r|, for |r| <= 1/2: P interpolates sin(2π s)/s in s² at eight
-# Chebyshev points of [0, 1/16]; absolute error below 1e-15.
-COS_COEFFICIENTS = (
-    6.283185307179585,
-    -41.341702240398284,
-    81.60524927557977,
-    -76.70585968962867,
-    42.05868995395094,
-    -15.09450614073429,
-    3.817365633469135,
-    -0.6925067010720717,
-)
-# 2^f for |f| <= 1/2, interpolated at eleven Chebyshev points; relative error below 1e-15.
-EXP2_COEFFICIENTS = (
-    1.0,
-    0.69314718055995,
-    0.24022650695910097,
-    0.05550410866444772,
-    0.009618129107606888,
-    0.0013333558230164974,
-    0.0001540353044173605,
-    1.5252657260200837e-05,
-    1.321544258792169e-06,
-    1.0208690299958306e-07,
-    7.072585949269223e-09,
-)
-# Adding 1.5 * 2^52 rounds a small number to an integer and leaves that integer in the lowest bits.
-ROUND = 1.5 * 2.0**52
-LEAST_EXPONENT = -1000.0  # 2^-1000 is zero here; below -1022 the exponent field would wrap
-EXPONENT_BIAS = 1023
-MANTISSA_BITS = 52
 
 
 def wetted_surface_load(
@@ -213,7 +180,7 @@ def _elevation(components: ti.template(), x, y):
     elevation = Lanes(0.0)
     for m in range(components.shape[0]):
         turns = x * components[m, KX] + y * components[m, KY] + components[m, PHASE]
-        crest = _cos_of_turns(turns) * components[m, CREST]
+        crest = cos_of_turns(turns) * components[m, CREST]
         elevation += crest
         for lane in ti.static(range(LANES)):
             components[m, ELEVATION + lane] = crest[lane]
@@ -226,30 +193,8 @@ def _wave_head(components: ti.template(), depth):
     head = Lanes(0.0)
     for m in range(components.shape[0]):
         crest = Lanes([components[m, ELEVATION + lane] for lane in ti.static(range(LANES))])
-        head += crest * _exp2(depth * -components[m, DECAY])
+        head += crest * exp2(depth * -components[m, DECAY])
     return head
-
-
-@ti.func
-def _cos_of_turns(turns):
-    s = 0.25 - abs(turns - ((turns + ROUND) - ROUND))
-    return s * _polynomial(ti.static(COS_COEFFICIENTS), s * s)
-
-
-@ti.func
-def _exp2(exponent):
-    exponent = ti.select(exponent > LEAST_EXPONENT, exponent, LEAST_EXPONENT)
-    rounded = exponent + ROUND
-    power = _polynomial(ti.static(EXP2_COEFFICIENTS), exponent - (rounded - ROUND))
-    return power * ti.bit_cast((ti.bit_cast(rounded, ti.i64) + EXPONENT_BIAS) << MANTISSA_BITS, ti.f64)
-
-
-@ti.func
-def _polynomial(coefficients: ti.template(), x):
-    value = x * coefficients[-1] + coefficients[-2]
-    for i in ti.static(range(len(coefficients) - 3, -1, -1)):
-        value = value * x + coefficients[i]
-    return value
 
 
 @ti.func

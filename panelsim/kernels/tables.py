@@ -56,7 +56,8 @@ class WaveTables:
 
     All (M,), M = 0 for calm water: `amplitude` [m], `wavenumber_x` = k cos β and `wavenumber_y` =
     -k sin β [rad/m], `wavenumber` k [rad/m], `encounter_frequency` with its sign [rad/s], `phase`
-    ε [rad]. The elevation is Σ a cos(kx x + ky y - ω_e t - ε).
+    ε [rad]. The elevation is Σ a cos(kx x + ky y - ω_e t - ε); with `second_order` Σ ½ a² k cos 2θ is
+    added to it, which is Stokes' theory for a single wave.
     """
 
     amplitude: FloatArray
@@ -65,6 +66,7 @@ class WaveTables:
     wavenumber: FloatArray
     encounter_frequency: FloatArray
     phase: FloatArray
+    second_order: bool = False
 
     @cached_property
     def columns(self) -> FloatArray:
@@ -117,11 +119,14 @@ def wave_tables(
     wave_heading: ArrayLike,
     encounter_frequency: ArrayLike,
     phase: ArrayLike,
+    *,
+    second_order: bool = False,
 ) -> WaveTables:
     """Build the tables of a seaway from its components, each argument (M,) or a scalar for M = 1.
 
     Amplitude a [m], wavenumber k [rad/m], wave heading β [rad] (0 following, π/2 from port), signed
-    encounter frequency ω - U k cos β [rad/s], phase ε [rad]; no components mean calm water. Raises
+    encounter frequency ω - U k cos β [rad/s], phase ε [rad]; no components mean calm water;
+    `second_order` adds the Stokes term to the elevation. Raises
     PanelsimError for unequal lengths, values that are not finite and negative wavenumbers.
     """
     given = (amplitude, wavenumber, wave_heading, encounter_frequency, phase)
@@ -142,9 +147,8 @@ def wave_tables(
             allowed="finite numbers, wavenumbers not below 0",
             remedy="turn the wave heading by 180 degrees to reverse a wave",
         )
-    return WaveTables(
-        *(_frozen(column) for column in (a, k * np.cos(heading), -k * np.sin(heading), k, frequency, lead))
-    )
+    columns = [_frozen(c) for c in (a, k * np.cos(heading), -k * np.sin(heading), k, frequency, lead)]
+    return WaveTables(*columns, second_order=second_order)
 
 
 def checked_poses(poses: FloatArray) -> FloatArray:

@@ -217,7 +217,9 @@ class History:
     def components(self) -> WaveComponents:
         """The waves at their full amplitude, as after the ramp."""
         group = self.tree.children["seaway"].dataset
-        return WaveComponents(**{name: group[name].values for name in COMPONENT_UNITS})
+        columns = (group[name].values for name in COMPONENT_UNITS)
+        # Histories of panelsim 0.1 have first-order waves only.
+        return WaveComponents(*columns, second_order=bool(group.attrs.get("second_order", False)))
 
     @cached_property
     def seaway_attrs(self) -> dict[str, Any]:
@@ -324,7 +326,7 @@ def _seaway_group(components: WaveComponents, **attrs: object) -> xr.Dataset:
             name: ("component", np.array(getattr(components, name), dtype=float), {"units": units})
             for name, units in COMPONENT_UNITS.items()
         },
-        attrs=attrs,
+        attrs={**attrs, "second_order": int(components.second_order)},
     )
 
 

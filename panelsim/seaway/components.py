@@ -16,13 +16,18 @@ class WaveComponents:
     `amplitude` a [m], `frequency` ω [rad/s], `wave_heading` β [rad] (the direction waves travel
     relative to the ship: 0 following, π/2 from port, π head), `phase` ε [rad], the phase lead
     of the crest at the origin. One component is a cos(k(x cos β − y sin β) − ω_e t − ε),
-    TM 2003-190 (10).
+    TM 2003-190 (10). `second_order` adds the Stokes term ½ a² k cos 2θ to the elevation of a single
+    wave, (17); its potential stays that of first order.
+
+    Raises PanelsimError for values that are not finite, frequencies that are not positive, and a
+    second order of more than one wave, which would interact.
     """
 
     amplitude: FloatArray
     frequency: FloatArray
     wave_heading: FloatArray
     phase: FloatArray
+    second_order: bool = False
 
     def __post_init__(self) -> None:
         names = ("amplitude", "frequency", "wave_heading", "phase")
@@ -46,6 +51,12 @@ class WaveComponents:
                 "A wave frequency is not positive",
                 got=f"{self.frequency.min():g} rad/s",
                 allowed="more than 0",
+            )
+        if self.second_order and self.count != 1:
+            raise PanelsimError(
+                "Stokes waves of second order are regular waves",
+                got=f"{self.count} components",
+                allowed="one component",
             )
 
     @property

@@ -8,7 +8,8 @@ import pytest
 from panelsim.conventions import KNOT
 from panelsim.motion.history import History
 from panelsim.seaway.components import WaveComponents
-from panelsim.seaway.seaways import Bretschneider, RandomSeaway
+from panelsim.seaway.random import RandomSeaway
+from panelsim.seaway.spectra.bretschneider import Bretschneider
 from panelsim.ship.ship import Ship
 
 Run = Callable[..., History]

@@ -17,7 +17,7 @@ from panelsim.hydro.store import database_for
 from panelsim.loads.froude_krylov import froude_krylov_transfer
 from panelsim.loads.supplementary import Supplementary
 from panelsim.motion.simulate import simulate
-from panelsim.seaway.seaways import RegularSeaway
+from panelsim.seaway.regular import RegularSeaway
 from panelsim.ship.bundled import load_ship
 from panelsim.ship.ship import Ship
 

@@ -1,4 +1,4 @@
-"""Point wave spectra S(ω) in m² s/rad."""
+"""The Bretschneider spectrum: a fully developed sea by its height and one period."""
 
 from dataclasses import dataclass
 
@@ -6,11 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gamma
 
-from panelsim.conventions import STANDARD_GRAVITY, FloatArray
+from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
-
-BREAKING_STEEPNESS = 0.142  # TM 2003-190 section 2.2
-BUCKLEY_STEEPNESS = 0.049  # TM 2003-190 section 5, from wave buoys
+from panelsim.seaway.steepness import BREAKING_STEEPNESS, nominal_steepness
 
 
 @dataclass(frozen=True)
@@ -44,7 +42,7 @@ class Bretschneider:
     @property
     def nominal_steepness(self) -> float:
         """2π H_s / (g T_p²), TM 2003-190 (56)."""
-        return float(2 * np.pi * self.significant_wave_height / (STANDARD_GRAVITY * self.peak_period**2))
+        return nominal_steepness(self.significant_wave_height, self.peak_period)
 
     @property
     def _shape(self) -> tuple[float, float]:

@@ -1,0 +1,1 @@
+"""What seas occur: sea states, scatter tables, limits of steepness."""

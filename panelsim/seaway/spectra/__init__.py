@@ -1,0 +1,1 @@
+"""Point spectra S(ω): how the energy of a sea is spread over the frequencies."""
