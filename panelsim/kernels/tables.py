@@ -5,7 +5,7 @@ the vertices, F = Σ p_v G_v. The response G of a vertex follows from the geomet
 built once; a quadrilateral takes the mean over both of its diagonal splits.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeVar
 
@@ -66,7 +66,7 @@ class WaveTables:
     wavenumber: FloatArray
     encounter_frequency: FloatArray
     phase: FloatArray
-    second_order: bool = False
+    second_order: bool = field(default=False, kw_only=True)
 
     @cached_property
     def columns(self) -> FloatArray:

@@ -1,6 +1,6 @@
 """Wave components: what a seaway is made of, and all that a run needs to know of it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -27,7 +27,7 @@ class WaveComponents:
     frequency: FloatArray
     wave_heading: FloatArray
     phase: FloatArray
-    second_order: bool = False
+    second_order: bool = field(default=False, kw_only=True)
 
     def __post_init__(self) -> None:
         names = ("amplitude", "frequency", "wave_heading", "phase")
