@@ -25,6 +25,45 @@ _HOMES = {
     "Ship": "ship.ship",
     "load_ship": "ship.bundled",
     "Bretschneider": "seaway.spectra.bretschneider",
+    "buckley_height": "seaway.climate.limits",
+    "ScatterTable": "seaway.climate.scatter",
+    "north_atlantic": "seaway.climate.scatter",
+    "sea_state": "seaway.climate.sea_states",
+    "sea_state_of": "seaway.climate.sea_states",
+    "DirectionalTable": "seaway.direction.directional_table",
+    "read_directional_table": "seaway.direction.directional_table",
+    "SpreadSpectrum": "seaway.direction.spread_spectrum",
+    "CosineHalfAngle": "seaway.direction.spreading",
+    "CosinePower": "seaway.direction.spreading",
+    "CosineSquared": "seaway.direction.spreading",
+    "TenParameterSpectrum": "seaway.direction.ten_parameter",
+    "read_components": "seaway.exchange.components_csv",
+    "write_components": "seaway.exchange.components_csv",
+    "dataset_from_spectrum": "seaway.exchange.datasets",
+    "open_spectrum": "seaway.exchange.datasets",
+    "spectrum_from_dataset": "seaway.exchange.datasets",
+    "ElevationRecord": "seaway.exchange.elevation_record",
+    "read_elevation_record": "seaway.exchange.elevation_record",
+    "read_ndbc_meteorology": "seaway.exchange.ndbc",
+    "read_ndbc_spectrum": "seaway.exchange.ndbc",
+    "FixedSeaway": "seaway.fixed",
+    "EqualEnergyFrequencies": "seaway.frequencies",
+    "EvenFrequencies": "seaway.frequencies",
+    "JitteredFrequencies": "seaway.frequencies",
+    "ComponentSeaway": "seaway.given",
+    "RecordedSeaway": "seaway.recorded",
+    "repeat_time": "seaway.repeat",
+    "variance_scatter": "seaway.repeat",
+    "characteristics": "seaway.spectra.characteristics",
+    "component_characteristics": "seaway.spectra.characteristics",
+    "encounter_density": "seaway.spectra.encounter",
+    "encounter_energy": "seaway.spectra.encounter",
+    "Jonswap": "seaway.spectra.jonswap",
+    "OchiHubble": "seaway.spectra.ochi_hubble",
+    "PiersonMoskowitz": "seaway.spectra.pierson_moskowitz",
+    "TableSpectrum": "seaway.spectra.table",
+    "read_table_spectrum": "seaway.spectra.table",
+    "TranslatingSeaway": "seaway.translating",
     "WaveComponents": "seaway.components",
     "CalmSeaway": "seaway.seaways",
     "RegularSeaway": "seaway.regular",
@@ -64,11 +103,50 @@ if TYPE_CHECKING:
     from panelsim.motion.history import History as History
     from panelsim.motion.simulate import simulate as simulate
     from panelsim.results.statistics import statistics as statistics
+    from panelsim.seaway.climate.limits import buckley_height as buckley_height
+    from panelsim.seaway.climate.scatter import ScatterTable as ScatterTable
+    from panelsim.seaway.climate.scatter import north_atlantic as north_atlantic
+    from panelsim.seaway.climate.sea_states import sea_state as sea_state
+    from panelsim.seaway.climate.sea_states import sea_state_of as sea_state_of
     from panelsim.seaway.components import WaveComponents as WaveComponents
+    from panelsim.seaway.direction.directional_table import DirectionalTable as DirectionalTable
+    from panelsim.seaway.direction.directional_table import read_directional_table as read_directional_table
+    from panelsim.seaway.direction.spread_spectrum import SpreadSpectrum as SpreadSpectrum
+    from panelsim.seaway.direction.spreading import CosineHalfAngle as CosineHalfAngle
+    from panelsim.seaway.direction.spreading import CosinePower as CosinePower
+    from panelsim.seaway.direction.spreading import CosineSquared as CosineSquared
+    from panelsim.seaway.direction.ten_parameter import TenParameterSpectrum as TenParameterSpectrum
+    from panelsim.seaway.exchange.components_csv import read_components as read_components
+    from panelsim.seaway.exchange.components_csv import write_components as write_components
+    from panelsim.seaway.exchange.datasets import dataset_from_spectrum as dataset_from_spectrum
+    from panelsim.seaway.exchange.datasets import open_spectrum as open_spectrum
+    from panelsim.seaway.exchange.datasets import spectrum_from_dataset as spectrum_from_dataset
+    from panelsim.seaway.exchange.elevation_record import ElevationRecord as ElevationRecord
+    from panelsim.seaway.exchange.elevation_record import read_elevation_record as read_elevation_record
+    from panelsim.seaway.exchange.ndbc import read_ndbc_meteorology as read_ndbc_meteorology
+    from panelsim.seaway.exchange.ndbc import read_ndbc_spectrum as read_ndbc_spectrum
+    from panelsim.seaway.fixed import FixedSeaway as FixedSeaway
+    from panelsim.seaway.frequencies import EqualEnergyFrequencies as EqualEnergyFrequencies
+    from panelsim.seaway.frequencies import EvenFrequencies as EvenFrequencies
+    from panelsim.seaway.frequencies import JitteredFrequencies as JitteredFrequencies
+    from panelsim.seaway.given import ComponentSeaway as ComponentSeaway
     from panelsim.seaway.random import RandomSeaway as RandomSeaway
+    from panelsim.seaway.recorded import RecordedSeaway as RecordedSeaway
     from panelsim.seaway.regular import RegularSeaway as RegularSeaway
+    from panelsim.seaway.repeat import repeat_time as repeat_time
+    from panelsim.seaway.repeat import variance_scatter as variance_scatter
     from panelsim.seaway.seaways import CalmSeaway as CalmSeaway
     from panelsim.seaway.spectra.bretschneider import Bretschneider as Bretschneider
+    from panelsim.seaway.spectra.characteristics import characteristics as characteristics
+    from panelsim.seaway.spectra.characteristics import component_characteristics as component_characteristics
+    from panelsim.seaway.spectra.encounter import encounter_density as encounter_density
+    from panelsim.seaway.spectra.encounter import encounter_energy as encounter_energy
+    from panelsim.seaway.spectra.jonswap import Jonswap as Jonswap
+    from panelsim.seaway.spectra.ochi_hubble import OchiHubble as OchiHubble
+    from panelsim.seaway.spectra.pierson_moskowitz import PiersonMoskowitz as PiersonMoskowitz
+    from panelsim.seaway.spectra.table import TableSpectrum as TableSpectrum
+    from panelsim.seaway.spectra.table import read_table_spectrum as read_table_spectrum
+    from panelsim.seaway.translating import TranslatingSeaway as TranslatingSeaway
     from panelsim.ship.bundled import load_ship as load_ship
     from panelsim.ship.ship import Ship as Ship
     from panelsim.view.recording import record as record

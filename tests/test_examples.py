@@ -42,7 +42,10 @@ def run_case(example: str, folder: Path, *overrides: str) -> None:
 
 def test_each_example_has_its_test() -> None:
     names = {path.name for path in EXAMPLES.iterdir() if path.suffix in (".py", ".toml")}
-    assert names == {"quickstart.py", "own_mesh.py", "own_mesh.toml", "halifax_sea_state_7.toml"}
+    assert names == {
+        *("quickstart.py", "own_mesh.py", "own_mesh.toml", "halifax_sea_state_7.toml"),
+        *("seas.py", "short_crested_sea.toml", "recorded_sea.py", "recorded_sea.toml"),
+    }
 
 
 def test_quickstart_gives_motions_of_a_frigate_in_sea_state_7() -> None:
@@ -95,3 +98,34 @@ def test_script_and_case_file_take_an_own_mesh_the_whole_way_to_the_same_motions
     by_case = History.load(tmp_path / "case" / "history.nc")
     # The stored potentials are single precision, 6e-8 of the largest; the wave amplitude is 0.5 m.
     assert np.abs(by_case.displacement - by_script.displacement).max() < 1e-6
+
+
+def test_a_ship_that_turns_stays_in_the_same_sea() -> None:
+    seas = load_example("seas")
+    before, after = seas.at_the_turn
+    assert abs(before - after) < 1e-9  # rounding of phases of some hundred radians
+    # JONSWAP with γ 3.3: T1 = 0.8343 T_p and T_z = 0.7774 T_p.
+    assert seas.periods == pytest.approx((8.343, 7.774), abs=2e-3)
+
+
+def test_a_short_crested_sea_runs(tmp_path: Path) -> None:
+    run_case("short_crested_sea.toml", tmp_path, "run.duration=20", "run.ramp=10")
+    found = json.loads((tmp_path / "statistics.json").read_text())
+    assert found["outcome"] == "finished"
+
+
+def test_a_recorded_sea_gives_the_record_back_and_carries_a_ship(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sea = load_example("recorded_sea").main(tmp_path / "record")
+    assert "waves hold 99." in capsys.readouterr().out
+    # The noise of the made-up instrument is 0.01 m; the band keeps a third of it and leaves the rest out.
+    error = sea.in_fixed_axes().elevation(0.0, 0.0, sea.record.time) - sea.record.elevation
+    assert error.std() < 0.02
+    buoy = tmp_path / "record" / "buoy.csv"
+    run_case("recorded_sea.toml", tmp_path / "run", f"seaway.file={buoy}", "run.duration=20", "run.ramp=10")
+    history = History.load(tmp_path / "run" / "history.nc")
+    assert history.outcome == "finished"
+    # What the case makes of the file is what the script makes of it, here as a moving ship meets it.
+    moving = sea.in_translating_axes(history.attrs["speed"]).elevation(0.0, 0.0, history.time[-1])
+    assert history.wave_elevation[-1] == pytest.approx(float(moving), abs=1e-9)

@@ -9,16 +9,14 @@ import numpy as np
 
 from panelsim.case.reading import read_case_file
 from panelsim.case.schema import CaseFile
+from panelsim.case.seaway_section import SeawayBuilder
 from panelsim.case.ship_section import beside, build_ship
 from panelsim.conventions import KNOT
-from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase, Progress
 from panelsim.hydro.store import database_for
 from panelsim.loads.supplementary import Supplementary
 from panelsim.seaway.random import RandomSeaway
-from panelsim.seaway.regular import RegularSeaway
-from panelsim.seaway.seaways import CalmSeaway, Seaway
-from panelsim.seaway.spectra.bretschneider import Bretschneider
+from panelsim.seaway.seaways import Seaway
 from panelsim.seaway.steepness import BUCKLEY_STEEPNESS
 from panelsim.ship.bundled import default_panel_area
 from panelsim.ship.facts import ship_warnings
@@ -48,33 +46,20 @@ class Case:
         return build_ship(self.file.ship, self.folder)
 
     @property
-    def wave_heading(self) -> float:
-        """β [rad]; from compass directions β = ν + 180° − χ, TM 2003-190 (9); 0 in calm water."""
+    def wave_heading(self) -> float | None:
+        """β [rad]; from compass directions β = ν + 180° − χ, TM 2003-190 (9); None where none is given."""
         sea, course = self.file.seaway.sea_direction_deg, self.file.run.ship_heading_deg
         if sea is not None and course is not None:
             return float(np.deg2rad((sea + 180.0 - course) % 360.0))
-        return float(np.deg2rad(self.file.seaway.wave_heading_deg or 0.0))
+        relative = self.file.seaway.wave_heading_deg
+        return None if relative is None else float(np.deg2rad(relative))
 
     @cached_property
     def seaway(self) -> Seaway:
-        """The waves."""
-        section = self.file.seaway
-        if section.kind == "calm":
-            return CalmSeaway()
-        values = section.model_dump()
-        if section.kind == "regular":
-            frequency = values["wave_frequency"] or 2 * np.pi / values["wave_period"]
-            phase = float(np.deg2rad(values["phase_deg"] or 0.0))
-            return RegularSeaway(0.5 * values["wave_height"], frequency, self.wave_heading, phase)
-        if section.frequencies is None:
-            raise PanelsimError("A random seaway needs seaway.frequencies")
-        return RandomSeaway(
-            Bretschneider(values["significant_wave_height"], values["peak_period"]),
-            section.frequencies.values(),
-            self.wave_heading,
-            section.seed,
-            section.minimum_energy,
-        )
+        """The waves. Raises PanelsimError for files and values that cannot be used."""
+        heading, course = self.wave_heading, self.file.run.ship_heading_deg
+        radians = None if course is None else float(np.deg2rad(course))
+        return SeawayBuilder(self.file.seaway, self.folder, heading, radians).build()
 
     @property
     def speed(self) -> float:
@@ -111,10 +96,11 @@ class Case:
         """What is allowed but unusual, one sentence each."""
         warnings = list(ship_warnings(self.ship))
         seaway = self.seaway
-        if isinstance(seaway, RandomSeaway) and seaway.spectrum.nominal_steepness > BUCKLEY_STEEPNESS:
+        steepness = seaway.point_spectrum.nominal_steepness if isinstance(seaway, RandomSeaway) else 0.0
+        if steepness > BUCKLEY_STEEPNESS:
             warnings.append(
-                f"The sea is steeper ({seaway.spectrum.nominal_steepness:.3f}) than the limit of wave-buoy"
-                f" observations, {BUCKLEY_STEEPNESS} (Buckley, TM 2003-190 section 5)."
+                f"The sea is steeper ({steepness:.3f}) than the limit of wave-buoy observations,"
+                f" {BUCKLEY_STEEPNESS} (Buckley, TM 2003-190 section 5)."
             )
         return warnings
 

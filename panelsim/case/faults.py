@@ -4,7 +4,7 @@ import difflib
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
@@ -20,8 +20,6 @@ TYPES = {
     "model_type": "a table, { key = value, … }",
     "model_attributes_type": "a table, { key = value, … }",
     "list_type": "a list in brackets, […]",
-    "too_short": "three numbers",
-    "too_long": "three numbers",
 }
 LIMITS = {"gt": "more than", "ge": "at least", "lt": "less than", "le": "at most"}
 
@@ -80,6 +78,10 @@ def _wrong(fault: Any) -> Fault:
     if kind == "value_error":
         message = fault["msg"].removeprefix("Value error, ")
         return Fault(f"{where}: {message}" if where else message)
+    if kind in ("too_short", "too_long"):
+        return Fault(
+            f"{where} has the wrong length", f"{fault['ctx']['actual_length']}", _length(fault["ctx"])
+        )
     allowed = TYPES.get(kind) or _limit(fault.get("ctx", {})) or fault["msg"].removeprefix("Input should be ")
     comma = isinstance(value, str) and re.fullmatch(r"[+-]?\d+,\d+", value)
     remedy = "decimals are written with a point" if comma else None
@@ -92,6 +94,12 @@ def _wrong(fault: Any) -> Fault:
 def _limit(context: dict[str, Any]) -> str | None:
     """The limit that a number breaks."""
     return next((f"{LIMITS[name]} {context[name]:g}" for name in LIMITS if name in context), None)
+
+
+def _length(context: dict[str, Any]) -> str:
+    if "min_length" in context:
+        return f"at least {context['min_length']}"
+    return f"at most {context['max_length']}"
 
 
 def _shown(value: object) -> str:
@@ -126,12 +134,18 @@ def _model(table: list[str]) -> type[BaseModel]:
     """The model of a table of the case file, given by the keys that lead to it."""
     model: type[BaseModel] = CaseFile
     for name in table:
-        model = _table_model(model, name) or model
+        if name in model.model_fields:  # the place in a list of tables is no key
+            model = _table_model(model, name) or model
     return model
 
 
 def _table_model(model: type[BaseModel], name: str) -> type[BaseModel] | None:
-    """The model of the table under a key, or None where the key holds a plain value."""
-    annotation = model.model_fields[name].annotation
-    candidates = [annotation, *getattr(annotation, "__args__", ())]
-    return next((c for c in candidates if isinstance(c, type) and issubclass(c, BaseModel)), None)
+    """The model of the table, or list of tables, under a key; None where the key holds a plain value."""
+    return next(_models_in(model.model_fields[name].annotation), None)
+
+
+def _models_in(annotation: Any) -> Iterator[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _models_in(part)

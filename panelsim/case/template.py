@@ -51,7 +51,7 @@ def case_template(form: HullForm, hull: str) -> str:
     speed = min(15.0, round(froude_quarter, 1)) if form.length_pp > 3.0 * form.beam else 0.0
     return f"""\
 # {" ".join(form.title.split())}
-# Check this file with `panelsim check`, run it with `panelsim run`.
+# Check this file with `panelsim check`, look at its sea with `panelsim sea`, run it with `panelsim run`.
 
 [ship]
 hull = {_toml_string(hull)}
@@ -65,13 +65,15 @@ panel_area = {default_panel_area(form):.3g}              # m2, nominal
 method = "bem"                  # or file = "coefficients.nc", from `panelsim hydro`
 
 [seaway]
-kind = "random"                 # random | regular | calm
-spectrum = "bretschneider"
+kind = "random"                 # random | regular | calm | record | dataset | components
+spectrum = "bretschneider"      # or jonswap, pierson-moskowitz, ochi-hubble, …: see docs/seaways.md
 significant_wave_height = {height:g}   # m
 peak_period = {peak_period:g}              # s
-frequencies = {{ start = {0.5 * peak:.3g}, stop = {4.5 * peak:.3g}, step = {0.08 * peak:.3g} }}   # rad/s
+# one frequency in each step, drawn with the seed: even frequencies would repeat the sea after 2π/step
+frequencies = {{ choice = "jittered", {_grid(peak)} }}   # rad/s
 wave_heading_deg = 150          # 0 following, 90 from port, 180 head
 # or compass directions: sea_direction_deg = 210 (from) here and ship_heading_deg = 0 in [run]
+# short-crested: spreading = {{ kind = "cosine-squared", spreading_angle_deg = 90 }}, direction_step_deg = 20
 minimum_energy = 0.9            # refuse frequencies that hold less of the spectrum's energy
 stretching = "wheeler"          # wheeler | none
 seed = 1
@@ -85,6 +87,11 @@ ramp = 60                       # s over which the waves grow
 capsize_angle_deg = 90          # end the run there; 0 = never
 
 {_supplementary(form)}"""
+
+
+def _grid(peak: float) -> str:
+    """Frequencies about a spectral peak [rad/s] that hold 99 % of the energy of a Bretschneider sea."""
+    return f"start = {0.5 * peak:.3g}, stop = {4.5 * peak:.3g}, step = {0.08 * peak:.3g}"
 
 
 def _toml_string(text: str) -> str:

@@ -15,6 +15,7 @@ from panelsim.case import Case
 from panelsim.case.ship_section import is_mesh_file
 from panelsim.case.template import case_template, hull_entry
 from panelsim.cli.show import err, out, progress_bars, say, show_case, show_facts, show_result, warn
+from panelsim.cli.show_sea import show_sea
 from panelsim.errors import PanelsimError
 from panelsim.files import replacing
 from panelsim.hull.checks import check_mesh, require_sound
@@ -25,6 +26,7 @@ from panelsim.hull.readers import SUFFIXES, read_mesh
 from panelsim.hydro.database import HydroDatabase
 from panelsim.motion.history import History
 from panelsim.results.export import CSV_FILES, history_to_csv
+from panelsim.seaway.exchange.components_csv import write_components
 from panelsim.ship.bundled import load_ship
 from panelsim.ship.facts import ship_facts
 from panelsim.ship.ship import Ship
@@ -216,6 +218,36 @@ def run(
         detail = result.statistics.outcome_detail
         err.print(f"The run ended early: {result.history.outcome}, {detail}")
         raise typer.Exit(EXIT_ENDED_EARLY)
+
+
+@app.command()
+def sea(
+    case_file: Annotated[Path, typer.Argument(help="Case file (TOML).")],
+    out_folder: Annotated[
+        Path | None, typer.Option("--out", help="Output folder; runs/CASE-sea if not given.")
+    ] = None,
+    force: Force = False,
+    overrides: Overrides = None,
+) -> None:
+    """Print the parameters of the sea of a case, and draw it.
+
+    The files are sea.png and components.csv.
+    """
+    case = Case.load(case_file, overrides or ())
+    folder = out_folder if out_folder is not None else Path("runs") / f"{case.name}-sea"
+    refuse_occupied_folder(folder, force=force)
+    if not case.seaway.components.count:
+        raise PanelsimError("There is nothing to look at in calm water", got='seaway.kind = "calm"')
+    warnings = case.warnings()
+    show_sea(case)
+    warn(warnings)
+    from panelsim.view.sea_picture import sea_picture  # brings matplotlib
+
+    make_output_folder(folder)
+    files = [sea_picture(case.seaway, case.ship, case.speed, folder / "sea.png")]
+    if not case.seaway.components.second_order:  # the columns of such a file say nothing of it
+        files.append(write_components(folder / "components.csv", case.seaway.components, overwrite=True))
+    out.print(f"Files in {folder}: {', '.join(file.name for file in files)}", soft_wrap=True)
 
 
 @app.command()

@@ -13,7 +13,9 @@ from rich.table import Table
 
 from panelsim.case import Case
 from panelsim.results.tables import statistics_table
-from panelsim.seaway.components import repeat_time
+from panelsim.seaway.components import WaveComponents
+from panelsim.seaway.random import RandomSeaway
+from panelsim.seaway.repeat import repeat_time
 from panelsim.ship.facts import Published, ShipFacts
 
 if TYPE_CHECKING:  # it brings matplotlib and rerun
@@ -71,7 +73,7 @@ def show_facts(facts: ShipFacts) -> None:
         "block coefficient": f"{facts.block_coefficient:.4f}",
         "GM transverse, longitudinal": f"{_metres(facts.gm_transverse)}, {_metres(facts.gm_longitudinal)}",
     }
-    _show_rows(f"{facts.name}, at rest in calm water", rows)
+    show_rows(f"{facts.name}, at rest in calm water", rows)
     if facts.published:
         _show_published(facts.published)
 
@@ -113,7 +115,7 @@ def _show_published(published: Mapping[str, Published]) -> None:
     out.print(table)
 
 
-def _show_rows(title: str, rows: Mapping[str, str]) -> None:
+def show_rows(title: str, rows: Mapping[str, str]) -> None:
     out.print(title, style="bold")
     table = Table(show_header=False, box=None, padding=(0, 2))
     for name, value in rows.items():
@@ -138,25 +140,34 @@ def show_case(case: Case) -> None:
         "run": f"{run.model}, {run.speed_knots:g} knots, ramp {run.ramp:g} s and {run.duration:g} s,"
         f" {run.steps} steps of {run.time_step:g} s",
     }
-    _show_rows(case.name, rows)
+    show_rows(case.name, rows)
 
 
 def _sea(case: Case) -> str:
-    components = case.seaway.components
+    components, seaway = case.seaway.components, case.seaway
     if not components.count:
         return "calm water"
-    heading = f"heading {np.rad2deg(case.wave_heading):.4g}° (0° following, 180° head)"
+    heading = _headings(components)
     if components.count == 1:
         height, omega = 2 * components.amplitude[0], components.frequency[0]
-        return f"regular waves, height {height:.4g} m, {omega:.4g} rad/s, {heading}"
+        theory = "second-order Stokes" if components.second_order else "regular"
+        return f"{theory} waves, height {height:.4g} m, {omega:.4g} rad/s, {heading}"
     run = case.file.run
     again = repeat_time(components, case.speed, run.ramp + run.duration, gravity=case.ship.gravity)
     repeat = "does not repeat within the run" if again is None else f"repeats after {again:.0f} s"
     significant = 4 * components.variance**0.5
+    seed = f", seed {case.file.seaway.seed}" if isinstance(seaway, RandomSeaway) else ""
     return (
-        f"random, seed {case.file.seaway.seed}, {components.count} components, 4 × RMS of the elevation"
+        f"{seaway.kind}{seed}, {components.count} components, 4 × RMS of the elevation"
         f" {significant:.4g} m, {heading}; as the ship meets it, it {repeat}"
     )
+
+
+def _headings(components: WaveComponents) -> str:
+    """The heading of the waves, or their mean, and how far they spread about it."""
+    mean = np.angle(np.sum(components.amplitude**2 * np.exp(1j * components.wave_heading)))
+    heading = f"heading {np.rad2deg(mean) % 360.0:.4g}° (0° following, 180° head)"
+    return f"mean {heading}" if np.ptp(components.wave_heading) else heading
 
 
 def _by_motion(values: Mapping[str, float]) -> str:

@@ -23,12 +23,14 @@ class Surroundings:
     weight_density: float  # ρ g [N/m3]
     stretching: str
 
-    def submergence_and_pressure(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Depth below the instantaneous surface [m] and pressure [Pa] at points (..., 3) in ship axes.
+    def at(self, points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """What the rule needs at points (..., 3) in ship axes, wet or dry.
 
-        p = -ρ g z + ρ g Σ a cos θ exp(k (z - ζ)) with Wheeler's stretching, TM 2003-190 section 2.6,
-        or with exp(k min(z, 0)) without it. A dry point has the pressure of the same formula with
-        no decay above the surface; only the cut of an unstretched wave asks for it.
+        The depth below the instantaneous surface ζ - z [m], ζ with or without second order; the
+        pressure [Pa], p = -ρ g z + ρ g Σ a cos θ exp(k (z - ζ)) with Wheeler's stretching, TM 2003-190
+        section 2.6, or with exp(k min(z, 0)) without it; and the pressure [Pa] to interpolate along an
+        edge to where the surface cuts it. With Wheeler that is the pressure at the surface above the
+        point, ρ g (Σ a cos θ - ζ); without, the pressure itself, which a dry point has too.
         """
         time, wave_factor = self.pose[:2]
         earth = points @ rotation_to_earth(*self.pose[5:8]).T + self.pose[2:5]
@@ -42,10 +44,14 @@ class Surroundings:
         )
         crest = wave_factor * sea.amplitude * np.cos(phase)
         elevation = crest.sum(axis=-1)
+        if sea.second_order:
+            second = 0.5 * (wave_factor * sea.amplitude) ** 2 * sea.wavenumber * np.cos(2.0 * phase)
+            elevation = elevation + second.sum(axis=-1)
         height = z - elevation if self.stretching == "wheeler" else z
         decay = np.exp(sea.wavenumber * np.minimum(height, 0.0)[..., None])
         pressure = self.weight_density * ((crest * decay).sum(axis=-1) - z)
-        return elevation - z, pressure
+        at_surface = self.weight_density * (crest.sum(axis=-1) - elevation)
+        return elevation - z, pressure, at_surface if self.stretching == "wheeler" else pressure
 
 
 def wetted_surface_load(
@@ -105,12 +111,12 @@ def _load_at_poses(
 
 def _load(corners: FloatArray, water: Surroundings) -> FloatArray:
     """Load (6,) on half-weight triangles (T, 3, 3) in ship axes; the cut ones keep their wet pieces."""
-    submergence, pressure = water.submergence_and_pressure(corners)
+    submergence, pressure, to_cut = water.at(corners)
     wet_corners = (submergence > 0.0).sum(axis=1)
     whole = wet_corners == 3
     load = _integrate(corners[whole], pressure[whole])
     polygons = [
-        _wet_polygon(corners[t], submergence[t], pressure[t], water.stretching)
+        _wet_polygon(corners[t], submergence[t], pressure[t], to_cut[t])
         for t in np.flatnonzero((wet_corners == 1) | (wet_corners == 2))
     ]
     if polygons:
@@ -134,7 +140,7 @@ def _integrate(corners: FloatArray, pressure: FloatArray) -> FloatArray:
 
 
 def _wet_polygon(
-    corners: FloatArray, submergence: FloatArray, pressure: FloatArray, stretching: str
+    corners: FloatArray, submergence: FloatArray, pressure: FloatArray, to_cut: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Four corners and their pressures of the wet part of one cut triangle: walk its edges, keep and cut.
 
@@ -148,9 +154,7 @@ def _wet_polygon(
         if (submergence[here] > 0.0) != (submergence[there] > 0.0):
             t = submergence[here] / (submergence[here] - submergence[there])
             points.append(corners[here] + t * (corners[there] - corners[here]))
-            # With Wheeler's stretching the pressure vanishes at the surface.
-            at_cut = pressure[here] + t * (pressure[there] - pressure[here])
-            pressures.append(0.0 if stretching == "wheeler" else at_cut)
+            pressures.append(to_cut[here] + t * (to_cut[there] - to_cut[here]))
     missing = 4 - len(points)
     return np.array(points + points[-1:] * missing), np.array(pressures + pressures[-1:] * missing)
 

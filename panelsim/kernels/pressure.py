@@ -27,6 +27,7 @@ from panelsim.kernels.tables import (
 ti = runtime.import_taichi()
 
 LANE_BITS = LANES.bit_length() - 1  # LANES is a power of two
+LOG_2 = float(np.log(2.0))
 
 Matrix = ti.types.ndarray(dtype=ti.f64, ndim=2)
 Blocks = ti.types.ndarray(dtype=ti.f64, ndim=3)
@@ -38,8 +39,8 @@ X, Y, Z, RESPONSE, REACH = 0, 1, 2, 3, 9
 AMPLITUDE, KX, KY, DECAY, FREQUENCY, LEAD = range(6)
 CREST, PHASE, ELEVATION = 6, 7, 8
 COMPONENT_COLUMNS = ELEVATION + LANES
-# Rows of the state of the points.
-SUBMERGENCE, HEAD = 0, 1
+# Rows of the state of the points; Stokes' second order alone fills the last one.
+SUBMERGENCE, HEAD, SURFACE_HEAD = 0, 1, 2
 # Columns of the exchange: a pose goes in, a load comes out.
 TIME, WAVE_FACTOR, DISPLACEMENT, LOAD = 0, 1, 2, 8
 EXCHANGE_COLUMNS = LOAD + 6
@@ -60,7 +61,9 @@ def wetted_surface_load(
     p = -ρ g z + ρ g Σ a cos θ exp(k (z - ζ)), z above calm water where the panel is: TM 2003-190 (10)
     for the elevation, section 2.6 for Wheeler's z - ζ, section 6 for the integral; "none" puts
     exp(k min(z, 0)) instead. The pressure carries no ω_e/ω, which (16) there seems to ask for: the
-    two parts of -ρ(∂/∂t - U ∂/∂x)Φ together give ω.
+    two parts of -ρ(∂/∂t - U ∂/∂x)Φ together give ω. With `waves.second_order` ζ has the term ½ a² k cos 2θ
+    of (8) and (17) and Φ stays of first order, section 2.2. Wheeler's pressure at the surface is then
+    -ρ g ½ a² k cos 2θ, an inconsistency of that model, where it is 0 without second order.
 
     `poses` (B, 8): time [s], factor on all wave amplitudes, η1..η3 [m], η4..η6 [rad], of the ship
     axes in the translating earth axes; `waterline`: calm water above the CG when upright [m];
@@ -76,33 +79,46 @@ def wetted_surface_load(
     exchange[:, DISPLACEMENT + 2] -= waterline  # the CG above calm water
     components = np.empty((len(waves.columns), COMPONENT_COLUMNS))
     components[:, :CREST] = waves.columns
-    state = np.empty((2, len(panels.points)))
-    _integrate_heads(panels.blocks, panels.panels, components, state, exchange, stretching == "wheeler")
+    state = np.empty((3, len(panels.points)))
+    _integrate_heads(
+        panels.blocks,
+        panels.panels,
+        components,
+        state,
+        exchange,
+        stretching == "wheeler",
+        bool(waves.second_order),
+    )
     return exchange[:, LOAD:] * (water_density * gravity)
 
 
 @ti.kernel
 def _integrate_heads(
-    blocks: Blocks, panels: Corners, components: Matrix, state: Matrix, exchange: Matrix, wheeler: ti.i32
+    blocks: Blocks,
+    panels: Corners,
+    components: Matrix,
+    state: Matrix,
+    exchange: Matrix,
+    wheeler: ti.i32,
+    second_order: ti.template(),
 ):
     ti.loop_config(serialize=True)  # the poses share `state` and `components`
     for b in range(exchange.shape[0]):
-        crest_bound = _set_phases(components, exchange, b)
-        load = _sum_over_points(blocks, components, state, exchange, b, crest_bound, wheeler)
-        head_at_cut = 1.0 - wheeler  # Wheeler's pressure vanishes at the surface
+        crest_bound = _set_phases(components, exchange, b, second_order)
+        load = _sum_over_points(blocks, components, state, exchange, b, crest_bound, wheeler, second_order)
         for n in range(panels.shape[0]):
             corners = ti.Vector([panels[n, 0], panels[n, 1], panels[n, 2], panels[n, 3]])
             wet_corners = 0
             for c in ti.static(range(4)):
                 wet_corners += ti.cast(_is_wet(state, corners[c]), ti.i32)
             if 0 < wet_corners < 4:
-                load += _correct_cut_panel(blocks, state, corners, head_at_cut)
+                load += _correct_cut_panel(blocks, state, corners, wheeler, second_order)
         for i in ti.static(range(6)):
             exchange[b, LOAD + i] = load[i]
 
 
 @ti.func
-def _set_phases(components: ti.template(), exchange: ti.template(), b):
+def _set_phases(components: ti.template(), exchange: ti.template(), b, second_order: ti.template()):
     """Set phase and amplitude of each component at the ship; returns a bound on the elevation."""
     bound = 0.0
     for m in range(components.shape[0]):
@@ -115,6 +131,8 @@ def _set_phases(components: ti.template(), exchange: ti.template(), b):
         components[m, PHASE] = turns - ti.floor(turns)
         components[m, CREST] = exchange[b, WAVE_FACTOR] * components[m, AMPLITUDE]
         bound += abs(components[m, CREST])
+        if ti.static(second_order):
+            bound += 0.5 * LOG_2 * components[m, DECAY] * components[m, CREST] ** 2
     return bound
 
 
@@ -147,6 +165,7 @@ def _sum_over_points(
     b,
     crest_bound,
     wheeler,
+    second_order: ti.template(),
 ):
     """Store submergence and head of every point and sum head times response over the wet ones."""
     r = _rotation(exchange[b, DISPLACEMENT + 3], exchange[b, DISPLACEMENT + 4], exchange[b, DISPLACEMENT + 5])
@@ -161,6 +180,11 @@ def _sum_over_points(
         # A dry point needs its true submergence where a neighbour is wet: the cut lies between.
         if (height - _eight(blocks, k, REACH)).min() <= crest_bound:
             submergence = _elevation(components, earth_x, earth_y) - height
+            if ti.static(second_order):
+                second = _second_order_elevation(components)
+                submergence += second
+                for lane in ti.static(range(LANES)):
+                    state[SURFACE_HEAD, LANES * k + lane] = -second[lane]
             if wheeler == 0:
                 head = _wave_head(components, ti.max(-height, 0.0)) - height
             elif submergence.max() > 0.0:
@@ -188,6 +212,17 @@ def _elevation(components: ti.template(), x, y):
 
 
 @ti.func
+def _second_order_elevation(components: ti.template()):
+    """Σ ½ a² k cos 2θ = Σ k ((a cos θ)² - ½ a²) at the eight points of the last `_elevation`."""
+    elevation = Lanes(0.0)
+    for m in range(components.shape[0]):
+        crest = Lanes([components[m, ELEVATION + lane] for lane in ti.static(range(LANES))])
+        wavenumber = LOG_2 * components[m, DECAY]
+        elevation += wavenumber * (crest * crest - 0.5 * components[m, CREST] ** 2)
+    return elevation
+
+
+@ti.func
 def _wave_head(components: ti.template(), depth):
     """Σ a cos θ exp(-k depth) at the eight points of the last `_elevation`."""
     head = Lanes(0.0)
@@ -203,7 +238,9 @@ def _eight(blocks: ti.template(), k, column):
 
 
 @ti.func
-def _correct_cut_panel(blocks: ti.template(), state: ti.template(), corners, head_at_cut):
+def _correct_cut_panel(
+    blocks: ti.template(), state: ti.template(), corners, wheeler, second_order: ti.template()
+):
     """Load to add for a panel that the surface cuts, the sum over its four half-weight triangles."""
     load = ti.Vector.zero(ti.f64, 6)
     for half in range(4):
@@ -215,12 +252,14 @@ def _correct_cut_panel(blocks: ti.template(), state: ti.template(), corners, hea
             c = corners[3]
         elif half == 3:
             a, b, c = corners[1], corners[2], corners[3]
-        load += _correct_triangle(blocks, state, a, b, c, head_at_cut)
+        load += _correct_triangle(blocks, state, a, b, c, wheeler, second_order)
     return load
 
 
 @ti.func
-def _correct_triangle(blocks: ti.template(), state: ti.template(), a, b, c, head_at_cut):
+def _correct_triangle(
+    blocks: ti.template(), state: ti.template(), a, b, c, wheeler, second_order: ti.template()
+):
     """Load on the wet part of a triangle minus what the sum over its vertices has counted."""
     load = ti.Vector.zero(ti.f64, 6)
     wet_a, wet_b, wet_c = _is_wet(state, a), _is_wet(state, b), _is_wet(state, c)
@@ -233,7 +272,7 @@ def _correct_triangle(blocks: ti.template(), state: ti.template(), a, b, c, head
             i, j, k = c, a, b
         depths = ti.Vector([state[SUBMERGENCE, i], state[SUBMERGENCE, j], state[SUBMERGENCE, k]])
         heads = ti.Vector([state[HEAD, i], state[HEAD, j], state[HEAD, k]])
-        weights = _clip(depths, heads, head_at_cut)
+        weights = _clip(depths, heads, _heads_to_cut(state, i, j, k, heads, wheeler, second_order))
         x0, x1, x2 = _position(blocks, i), _position(blocks, j), _position(blocks, k)
         area_vector = SPLIT_WEIGHT * 0.5 * (x1 - x0).cross(x2 - x0)
         force = -weights.sum() * area_vector
@@ -243,7 +282,22 @@ def _correct_triangle(blocks: ti.template(), state: ti.template(), a, b, c, head
 
 
 @ti.func
-def _clip(depths, heads, head_at_cut):
+def _heads_to_cut(state: ti.template(), i, j, k, heads, wheeler, second_order: ti.template()):
+    """Heads at the corners that are interpolated along an edge to where the surface cuts it.
+
+    Wheeler's head at the surface is Σ a cos θ - ζ whatever the depth of the corner: zero, or minus
+    the second order of the elevation. Without stretching it is the head of the corners themselves.
+    """
+    to_cut = heads * (1.0 - wheeler)
+    if ti.static(second_order):
+        to_cut += wheeler * ti.Vector(
+            [state[SURFACE_HEAD, i], state[SURFACE_HEAD, j], state[SURFACE_HEAD, k]]
+        )
+    return to_cut
+
+
+@ti.func
+def _clip(depths, heads, to_cut):
     """Corner weights of the wet part minus those counted, first corner alone wet or alone dry.
 
     The weight of a corner is the mean over the triangle of head times area coordinate: its sum is
@@ -251,8 +305,8 @@ def _clip(depths, heads, head_at_cut):
     """
     t1 = depths[0] / (depths[0] - depths[1])
     t2 = depths[0] / (depths[0] - depths[2])
-    cut1 = head_at_cut * (heads[0] + t1 * (heads[1] - heads[0]))
-    cut2 = head_at_cut * (heads[0] + t2 * (heads[2] - heads[0]))
+    cut1 = to_cut[0] + t1 * (to_cut[1] - to_cut[0])
+    cut2 = to_cut[0] + t2 * (to_cut[2] - to_cut[0])
     at_cut1, at_cut2 = 0.0, 0.0
     weights = ti.Vector([0.0, 0.0, 0.0])
     if depths[0] > 0.0:

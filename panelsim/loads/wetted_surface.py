@@ -20,7 +20,8 @@ class WettedSurface:
     """Static and wave pressure integrated over the instantaneous wetted surface, TM 2003-190 section 6.
 
     Pressure −ρ g z_w + ρ g Σ a cos θ exp(k(z_w − ζ)) where the panel is, panels cut at the water
-    surface; force and moment about the CG in ship axes, then turned to translating earth axes.
+    surface, ζ with the second order of Stokes waves; force and moment about the CG in ship axes, then
+    turned to translating earth axes.
     `method` "direct" is the compiled sum over components, "oracle" its slow NumPy twin.
     """
 
@@ -43,6 +44,7 @@ class WettedSurface:
             components.wave_heading,
             components.encounter_frequency(speed, ship.gravity),
             components.phase,
+            second_order=components.second_order,
         )
         self._ship = ship
         self._stretching = stretching

@@ -7,10 +7,15 @@ from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.diffraction import beyond_resolution
 from panelsim.loads.supplementary import Supplementary
 from panelsim.motion.requirements import ENERGY_THAT_COUNTS, energy_share
-from panelsim.seaway.components import WaveComponents, repeat_time
+from panelsim.seaway.components import WaveComponents
+from panelsim.seaway.repeat import repeat_time, variance_scatter
 
 # A wave of six steps a period is followed within some per cent.
 COARSE_STEP = 1.0  # encounter frequency times time step
+# Scatter of the RMS of the waves from one choice of phases to another, above which one run says little.
+MUCH_SCATTER = 0.15
+# Over ten times the length the scatter of a sea falls to a third; that of waves that beat stays.
+STAYS = 0.7
 
 
 def run_notes(
@@ -21,9 +26,15 @@ def run_notes(
     speed: float,
     time_step: float,
     length: float,
+    model: str,
 ) -> list[str]:
     """Sentences on a run of `length` [s] at `speed` [m/s] with `time_step` [s]; none where all is well."""
     notes = []
+    if components.second_order and model == "linear":
+        notes.append(
+            "The linear model takes the first order of the Stokes waves; their second order shows in the"
+            " elevation only."
+        )
     if components.count:
         notes += _resolution_note(components, database, speed)
         notes += _step_note(components, speed, time_step, database.gravity)
@@ -33,6 +44,7 @@ def run_notes(
             f"The ship meets nearly the same waves again every {again:.0f} s (evenly spaced frequencies):"
             " a longer run adds little to its statistics."
         )
+    notes += _scatter_note(components, speed, length, database.gravity)
     return notes + _course_note(database, supplementary, speed)
 
 
@@ -61,6 +73,26 @@ def _step_note(components: WaveComponents, speed: float, time_step: float, gravi
         f"{100 * share:.0f} % of the wave energy meets the ship with fewer than six time steps a period:"
         f" motions from it are off by several per cent; a step of {COARSE_STEP / encounter.max():.2g} s"
         " follows all of it."
+    ]
+
+
+def _scatter_note(components: WaveComponents, speed: float, length: float, gravity: float) -> list[str]:
+    """Say where one run is no measure of the sea: too short, or with waves that beat for hours."""
+    if components.count < 2:
+        return []
+    scatter = variance_scatter(components, speed, length, gravity=gravity)
+    if scatter / 2 < MUCH_SCATTER:
+        return []
+    longer = variance_scatter(components, speed, 10 * length, gravity=gravity)
+    remedy = (
+        "waves meet the ship at nearly the same frequency and beat for hours, so that a longer run does not"
+        " help: take several seeds, or more frequencies, jittered"
+        if longer > STAYS * scatter
+        else "take several seeds, or a longer run"
+    )
+    return [
+        f"With other phases the RMS of the waves in a run of this length would be another one, by"
+        f" {50 * scatter:.0f} % (one standard deviation): {remedy}."
     ]
 
 

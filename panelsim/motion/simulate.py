@@ -4,6 +4,7 @@ import json
 import math
 import time as clock
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -109,14 +110,15 @@ def simulate(
     )
     loop = clock.process_time() - compiled
     time = np.arange(record.count, dtype=np.float64) * time_step
-    waves = TranslatingSeaway(components, speed, ship.gravity).elevation(0.0, 0.0, time)
+    # The twin whatever the length, so that a run is bit for bit the beginning of a longer one.
+    sea = TranslatingSeaway(components, speed, ship.gravity, method="oracle")
     displacement, velocity, acceleration = record.motions
     return History.build(
         time=time,
         displacement=displacement,
         velocity=velocity,
         acceleration=acceleration,
-        wave_elevation=waves * np.array([ramp_factor(t, ramp) for t in time]),
+        wave_elevation=_wave_elevation(sea, time, np.array([ramp_factor(t, ramp) for t in time])),
         loads=record.loads,
         ship=ship,
         components=components,
@@ -141,9 +143,23 @@ def simulate(
                 speed=speed,
                 time_step=time_step,
                 length=ramp + duration,
+                model=model,
             ),
         ],
     )
+
+
+def _wave_elevation(sea: TranslatingSeaway, time: FloatArray, wave_factor: FloatArray) -> FloatArray:
+    """Elevation (T,) [m] at the moving origin, all amplitudes times `wave_factor` (T,).
+
+    The second order of a Stokes wave, ½ a² k cos 2θ, grows with the square of the factor.
+    """
+    elevation = sea.elevation(0.0, 0.0, time)
+    if not sea.components.second_order:
+        return wave_factor * elevation
+    linear = replace(sea, components=replace(sea.components, second_order=False))
+    first_order = linear.elevation(0.0, 0.0, time)
+    return wave_factor * first_order + wave_factor**2 * (elevation - first_order)
 
 
 def _pressure_loads(

@@ -78,38 +78,3 @@ class WaveComponents:
 
 
 NO_WAVES = WaveComponents(np.empty(0), np.empty(0), np.empty(0), np.empty(0))
-
-
-def repeat_time(
-    components: WaveComponents,
-    speed: float,
-    duration: float,
-    *,
-    likeness: float = 0.95,
-    gravity: float = STANDARD_GRAVITY,
-) -> float | None:
-    """First time [s] within the duration after which the ship meets nearly the same waves again.
-
-    The record repeats where its autocorrelation Σ a² cos(ω_e τ) / Σ a², having fallen below one
-    half, comes back above `likeness`. A grid of N even frequency steps does so early: the report's
-    0.1 rad/s grid after 346 s at 20 knots and 150°. None where it does not within the duration.
-    """
-    if components.count < 2:
-        return None
-    omega = components.encounter_frequency(speed, gravity)
-    weight = components.amplitude**2 / np.sum(components.amplitude**2)
-    # An eighth of a radian of the mean frequency resolves the peaks of the autocorrelation.
-    lag = np.arange(0.0, duration, 0.125 / max(np.sqrt(np.sum(weight * omega**2)), 1e-6))
-    correlation = np.zeros_like(lag)
-    for w, o in zip(weight, omega, strict=True):
-        correlation += w * np.cos(o * lag)
-    fallen = np.flatnonzero(correlation < 0.5)
-    if not fallen.size:
-        return None
-    again = fallen[0] + np.flatnonzero(correlation[fallen[0] :] > likeness)
-    if not again.size:
-        return None
-    # The top of the first peak, not its flank.
-    end = np.flatnonzero(correlation[again[0] :] < likeness)
-    stop = again[0] + (end[0] if end.size else 1)
-    return float(lag[again[0] + np.argmax(correlation[again[0] : stop])])

@@ -1,22 +1,26 @@
 """Regular waves: one frequency, one direction."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
 from panelsim.errors import PanelsimError
+from panelsim.seaway.checks import require_angle, require_positive
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.dispersion import wavenumber
-from panelsim.seaway.seaways import Seaway, require_heading
+from panelsim.seaway.seaways import Seaway
 from panelsim.seaway.steepness import BREAKING_STEEPNESS
 
 
 @dataclass(frozen=True)
 class RegularSeaway(Seaway):
-    """One sinusoidal wave, TM 2003-190 section 2: amplitude [m], frequency [rad/s], heading, phase [rad].
+    """One wave, TM 2003-190 section 2: amplitude a [m], frequency [rad/s], heading, phase [rad].
 
-    Raises PanelsimError where the wave is steeper than H/λ = 0.142, at which waves break.
+    With `second_order` it is a Stokes wave: ½ a² k cos 2θ is added to the elevation, (8) and (17), which
+    raises crest and trough alike, so that the height stays 2 a; potential and dispersion stay of first
+    order, section 2.2. Raises PanelsimError where the wave is steeper than H/λ = 0.142, at which
+    waves break, and for values that are no numbers of their kind.
     """
 
     wave_amplitude: float
@@ -24,14 +28,19 @@ class RegularSeaway(Seaway):
     wave_heading: float
     phase: float = 0.0
     ship_heading: float = 0.0
+    second_order: bool = field(default=False, kw_only=True)
 
     kind = "regular"
 
     def __post_init__(self) -> None:
-        require_heading(self.wave_heading)
         for name in ("wave_amplitude", "wave_frequency"):
-            if not (np.isfinite(getattr(self, name)) and getattr(self, name) > 0):
-                raise PanelsimError(f"{name} is not positive", got=getattr(self, name), allowed="more than 0")
+            require_positive(name, getattr(self, name), "m" if name == "wave_amplitude" else "rad/s")
+        for name in ("wave_heading", "phase", "ship_heading"):
+            require_angle(name.replace("_", " "), getattr(self, name))
+        if not isinstance(self.second_order, bool):
+            raise PanelsimError(
+                "second_order is no yes or no", got=repr(self.second_order)[:60], allowed="True or False"
+            )
         steepness = self.wave_amplitude * float(wavenumber(np.array(self.wave_frequency))) / np.pi
         if steepness > BREAKING_STEEPNESS:
             raise PanelsimError(
@@ -50,4 +59,5 @@ class RegularSeaway(Seaway):
             np.array([self.wave_frequency]),
             np.array([self.wave_heading]),
             np.array([self.phase]),
+            second_order=self.second_order,
         )

@@ -4,11 +4,10 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
-from panelsim.conventions import STANDARD_GRAVITY
-from panelsim.errors import PanelsimError
+from panelsim.conventions import STANDARD_GRAVITY, FloatArray
+from panelsim.seaway.checks import require_angle
 from panelsim.seaway.components import NO_WAVES, WaveComponents
+from panelsim.seaway.fixed import FixedSeaway
 from panelsim.seaway.translating import TranslatingSeaway
 
 
@@ -26,23 +25,28 @@ class Seaway(ABC):
     def components(self) -> WaveComponents:
         """The waves, their headings relative to that course, their phases at the origin at t = 0."""
 
-    def in_translating_axes(self, speed: float, gravity: float = STANDARD_GRAVITY) -> TranslatingSeaway:
-        """The waves as a ship at this speed [m/s] meets them."""
-        return TranslatingSeaway(self.components, speed, gravity)
+    def in_fixed_axes(self, *, gravity: float = STANDARD_GRAVITY, stretching: str = "wheeler") -> FixedSeaway:
+        """The waves as somebody at rest sees them, x north and y west."""
+        return FixedSeaway(self.components, self.ship_heading, gravity, stretching=stretching)
 
+    def in_translating_axes(
+        self,
+        speed: float,
+        ship_heading: float | None = None,
+        *,
+        time: float = 0.0,
+        position: tuple[float, float] | FloatArray = (0.0, 0.0),
+        gravity: float = STANDARD_GRAVITY,
+        stretching: str = "wheeler",
+    ) -> TranslatingSeaway:
+        """The waves as a ship at this speed [m/s] meets them, TM 2003-190 2.3, 2.5.
 
-def require_heading(wave_heading: float) -> None:
-    """Refuse a heading that is no number, or is one of degrees."""
-    if (
-        not isinstance(wave_heading, float | int | np.floating | np.integer)
-        or not abs(wave_heading) <= 2 * np.pi
-    ):
-        raise PanelsimError(
-            "The wave heading is no angle in radians",
-            got=repr(wave_heading)[:60],
-            allowed="-2π to 2π rad",
-            remedy="turn degrees into radians, for example np.deg2rad(150)",
-        )
+        On its own course from the origin, or on the compass course `ship_heading` [rad] that it takes at
+        `time` [s] and `position` (2,) [m], north and west of the origin.
+        """
+        fixed = self.in_fixed_axes(gravity=gravity, stretching=stretching)
+        course = self.ship_heading if ship_heading is None else ship_heading
+        return fixed.in_translating_axes(speed, course, time=time, position=position)
 
 
 @dataclass(frozen=True)
@@ -52,6 +56,9 @@ class CalmSeaway(Seaway):
     ship_heading: float = 0.0
 
     kind = "calm"
+
+    def __post_init__(self) -> None:
+        require_angle("ship heading", self.ship_heading)
 
     @property
     def components(self) -> WaveComponents:

@@ -1,63 +1,41 @@
-"""A seaway seen from translating earth axes, TM 2003-190 section 2.3."""
+"""A seaway seen from translating earth axes, TM 2003-190 sections 2.3 and 2.4."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from panelsim.conventions import STRETCHINGS, FloatArray
-from panelsim.errors import PanelsimError
+from panelsim.conventions import STANDARD_GRAVITY, FloatArray
 from panelsim.seaway.components import WaveComponents
+from panelsim.seaway.coordinates import require_speed
+from panelsim.seaway.view import SeawayView
 
 
 @dataclass(frozen=True)
-class TranslatingSeaway:
-    """Elevation and pressure in axes that move with the mean speed [m/s] and heading of the ship.
+class TranslatingSeaway(SeawayView):
+    """Waves in axes that move with the mean speed [m/s] and course of the ship, x forward and y to port.
 
-    Coordinates x forward and y to port [m] from the moving origin, z_wl [m] above calm water,
-    time [s]; scalars or arrays that broadcast.
+    A wave is a cos(k(x cos β − y sin β) − ω_e t − ε), (10), with ω_e = ω − U k cos β and its sign: with the
+    modulus of (11) a wave that the ship overtakes would run the wrong way.
+    Raises PanelsimError for a speed beyond ±50 m/s and for the errors of `SeawayView`.
     """
 
     components: WaveComponents
     speed: float
-    gravity: float
+    gravity: float = STANDARD_GRAVITY
+    stretching: str = field(default="wheeler", kw_only=True)
+    method: str = field(default="auto", kw_only=True)
 
-    def _angles(self, x: ArrayLike, y: ArrayLike, time: ArrayLike) -> FloatArray:
-        """Phase angles θ, with the components along a new last axis."""
-        c = self.components
-        k = c.wavenumber(self.gravity)
-        x, y, time = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float), np.asarray(time, float))
-        along = x[..., None] * np.cos(c.wave_heading) - y[..., None] * np.sin(c.wave_heading)
-        return k * along - c.encounter_frequency(self.speed, self.gravity) * time[..., None] - c.phase
+    def __post_init__(self) -> None:
+        self._require_valid()
+        require_speed(self.speed)
 
-    def elevation(self, x: ArrayLike, y: ArrayLike, time: ArrayLike) -> FloatArray:
-        """Wave elevation ζ = Σ a cos θ [m] above calm water, TM 2003-190 (10)."""
-        return np.cos(self._angles(x, y, time)) @ self.components.amplitude
+    @property
+    def wave_vector(self) -> FloatArray:
+        """Wavenumber vectors (M, 2) k (cos β, −sin β) [rad/m]."""
+        heading = self.components.wave_heading
+        return self._wavenumber[:, None] * np.column_stack([np.cos(heading), -np.sin(heading)])
 
-    def pressure(
-        self,
-        x: ArrayLike,
-        y: ArrayLike,
-        z_wl: ArrayLike,
-        time: ArrayLike,
-        *,
-        water_density: float,
-        stretching: str = "wheeler",
-    ) -> FloatArray:
-        """Pressure [Pa] above atmospheric, static and wave together; zero above the water surface.
-
-        p = −ρ g z_wl + ρ g Σ a cos θ exp(k (z_wl − ζ)) with Wheeler stretching (TM 2003-190 2.6),
-        exp(k min(z_wl, 0)) with none. No factor ω_e/ω: −ρ(∂/∂t − U ∂/∂x)Φ is the dynamic pressure,
-        of which (16) is only the first term.
-        """
-        if stretching not in STRETCHINGS:
-            raise PanelsimError("Unknown wave stretching", got=stretching, allowed=" | ".join(STRETCHINGS))
-        z_wl = np.asarray(z_wl, float)
-        wave = np.cos(self._angles(x, y, time)) * self.components.amplitude
-        elevation = wave.sum(axis=-1)
-        depth = z_wl - elevation if stretching == "wheeler" else np.minimum(z_wl, 0.0)
-        k = self.components.wavenumber(self.gravity)
-        submerged = z_wl <= elevation
-        decay = np.exp(k * np.where(submerged, depth, 0.0)[..., None])
-        pressure = water_density * self.gravity * ((wave * decay).sum(axis=-1) - z_wl)
-        return np.where(submerged, pressure, 0.0)
+    @property
+    def observed_frequency(self) -> FloatArray:
+        """Encounter frequencies (M,) ω_e [rad/s], negative for waves that the ship overtakes."""
+        return self.components.encounter_frequency(self.speed, self.gravity)

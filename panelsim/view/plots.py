@@ -29,7 +29,7 @@ def plot_motions(history: History, path: Path) -> Path:
     ramp = history.attrs["ramp"]
     for row, (label, values, color) in enumerate(_signals(history)):
         for axis, width in zip(axes[row], (0.7, 1.3), strict=True):
-            _plain(axis)
+            plain(axis)
             axis.plot(history.time, values, color=color, linewidth=width)
         axes[row, 0].set_ylabel(label)
         axes[row, 0].axvspan(*window, color=INK, alpha=0.08, linewidth=0)
@@ -42,7 +42,7 @@ def plot_motions(history: History, path: Path) -> Path:
         axes[0, 1].set_xlim(*window)
     for axis in axes[-1]:
         axis.set_xlabel("time [s]")
-    return _save(figure, path)
+    return save(figure, path)
 
 
 def plot_spectra(history: History, path: Path) -> Path:
@@ -52,7 +52,7 @@ def plot_spectra(history: History, path: Path) -> Path:
     rows = history.finite & (history.time >= history.attrs["ramp"])
     step = float(history.attrs["time_step"])
     for axis, (label, values, color) in zip(axes, _signals(history), strict=False):
-        _plain(axis)
+        plain(axis)
         unit = label[label.index("[") + 1 : -1]
         axis.set_title(label[: label.index(" [")], fontsize=10)
         axis.set_ylabel(f"[{unit}² s/rad]")
@@ -69,7 +69,7 @@ def plot_spectra(history: History, path: Path) -> Path:
         axis.set_xlabel("encounter frequency [rad/s]")
         axis.tick_params(labelbottom=True)
     axes[7].set_visible(False)
-    return _save(figure, path)
+    return save(figure, path)
 
 
 def plot_loads(history: History, path: Path) -> Path:
@@ -80,7 +80,7 @@ def plot_loads(history: History, path: Path) -> Path:
     loads = history.loads
     names = [name.replace("_", " ") for name in loads]
     for dof, axis in enumerate(axes.ravel()):
-        _plain(axis)
+        plain(axis)
         rms = [1e-6 * values[rows, dof].std() if rows.any() else 0.0 for values in loads.values()]
         bars = axis.barh(names, rms, color=COLORS[dof + 1], height=0.65)
         # what is below a millionth of the largest is round-off
@@ -92,7 +92,7 @@ def plot_loads(history: History, path: Path) -> Path:
         axis.set_xlim(left=0.0)
         axis.grid(axis="y", visible=False)
     axes[0, 0].invert_yaxis()
-    return _save(figure, path)
+    return save(figure, path)
 
 
 def _highest_frequency(history: History) -> float:
@@ -119,7 +119,7 @@ def _signals(history: History) -> list[tuple[str, FloatArray, str]]:
     return labelled
 
 
-def _plain(axis: Axes) -> None:
+def plain(axis: Axes) -> None:
     """Thin lines, no frame on the right and on top."""
     axis.grid(color="#dddddd", linewidth=0.6)
     axis.set_axisbelow(True)
@@ -127,7 +127,7 @@ def _plain(axis: Axes) -> None:
     axis.tick_params(colors=INK, labelsize=8)
 
 
-def _save(figure: Figure, path: Path) -> Path:
+def save(figure: Figure, path: Path) -> Path:
     with replacing(path) as beside:
         figure.savefig(beside, dpi=110)
     return path

@@ -30,6 +30,7 @@ class SeaGrid:
 
     On a grid of lines x and y the sum over components is a product of two small matrices,
     ζ = Re Σ a e^(−i(ω_e t + ε)) e^(i k x cos β) e^(−i k y sin β), so that a frame costs almost nothing.
+    The second order of a Stokes wave A = a e^(iθ), ½ a² k cos 2θ of TM 2003-190 (17), is ½ k Re A².
     """
 
     line: FloatArray  # (n,) [m], the same for x and y, about the ship
@@ -68,7 +69,10 @@ class SeaGrid:
         amplitude = ramp_factor(time, self.history.attrs["ramp"]) * waves.amplitude
         # einsum, not @: threads of a matrix library cost more than these small products
         weight = amplitude * np.exp(1j * angle)
-        return np.real(np.einsum("xm,my->xy", self.along_x * weight, self.along_y))
+        complex_elevation = np.einsum("xm,my->xy", self.along_x * weight, self.along_y)
+        if waves.second_order:  # a single wave
+            complex_elevation = complex_elevation + 0.5 * k[0] * complex_elevation**2
+        return np.real(complex_elevation)
 
     def vertices(self, row: int, elevation: FloatArray) -> FloatArray:
         """Vertices (n², 3) [m] of the sea in translating earth axes."""
@@ -93,15 +97,10 @@ def pressure_head(history: History, row: int) -> FloatArray:
     waves = history.components
     grown = replace(waves, amplitude=ramp_factor(time, history.attrs["ramp"]) * waves.amplitude)
     density, gravity = (float(history.loading[name]) for name in ("water_density", "gravity"))
-    pressure = TranslatingSeaway(grown, history.attrs["speed"], gravity).pressure(
-        x,
-        y,
-        z - history.waterline,
-        np.float64(time),
-        water_density=density,
-        stretching=history.seaway_attrs["stretching"],
-    )
-    return pressure / (density * gravity)
+    stretching = history.seaway_attrs["stretching"]
+    # Compiled, because there are thousands of frames.
+    sea = TranslatingSeaway(grown, history.attrs["speed"], gravity, stretching=stretching, method="direct")
+    return sea.pressure(x, y, z - history.waterline, time, water_density=density) / (density * gravity)
 
 
 def deepest_head(history: History) -> float:

@@ -6,13 +6,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gamma
 
-from panelsim.conventions import FloatArray
-from panelsim.errors import PanelsimError
-from panelsim.seaway.steepness import BREAKING_STEEPNESS, nominal_steepness
+from panelsim.conventions import STANDARD_GRAVITY, FloatArray
+from panelsim.seaway.checks import require_numbers, require_positive, require_share
+from panelsim.seaway.spectra.point_spectrum import PointSpectrum
+from panelsim.seaway.spectra.system import SMALLEST_RATIO, system_moment, system_share_below
+from panelsim.seaway.steepness import require_possible_sea
+
+MEAN_PERIOD_RATIO = 1 / (1.25**0.25 * gamma(0.75))  # T_1/T_p = 0.77177, printed as 0.773 in TM 2003-190 (43)
+ZERO_CROSSING_RATIO = (1.25 * np.pi) ** -0.25  # T_z/T_p = 0.71037, (44)
+PHILLIPS_LEVEL = 0.0081  # α of the tail α g² ω⁻⁵ of fully developed seas, SIMULATORS (5)
 
 
 @dataclass(frozen=True)
-class Bretschneider:
+class Bretschneider(PointSpectrum):
     """Bretschneider spectrum, TM 2003-190 (42), by significant wave height [m] and peak period [s].
 
     S(ω) = A ω⁻⁵ exp(−B ω⁻⁴) with B = (5/4) ω_p⁴ and A = B H_s²/4, so that H_s = 4 √m0 exactly;
@@ -25,48 +31,56 @@ class Bretschneider:
     peak_period: float
 
     def __post_init__(self) -> None:
-        for name in ("significant_wave_height", "peak_period"):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0):
-                raise PanelsimError(f"{name} is not positive", got=value, allowed="more than 0")
-        if self.nominal_steepness > BREAKING_STEEPNESS:
-            lowest = self.peak_period * np.sqrt(self.nominal_steepness / BREAKING_STEEPNESS)
-            raise PanelsimError(
-                "The sea is steeper than waves can be",
-                got=f"H_s {self.significant_wave_height:g} m at T_p {self.peak_period:g} s,"
-                f" steepness {self.nominal_steepness:.3f}",
-                allowed=f"at most {BREAKING_STEEPNESS} (breaking)",
-                remedy=f"lower significant_wave_height, or take peak_period over {lowest:.1f} s",
-            )
+        require_positive("significant_wave_height", self.significant_wave_height, "m")
+        require_positive("peak_period", self.peak_period, "s")
+        require_possible_sea(self.significant_wave_height, self.peak_period)
+
+    @classmethod
+    def from_mean_period(cls, significant_wave_height: float, mean_period: float) -> "Bretschneider":
+        """By the mean period T_1 = 2π m0/m1 [s], to which 172.75 and 691 of WORKSHOP 4.5 belong."""
+        return cls(
+            significant_wave_height, require_positive("mean_period", mean_period, "s") / MEAN_PERIOD_RATIO
+        )
+
+    @classmethod
+    def from_zero_crossing_period(
+        cls, significant_wave_height: float, zero_crossing_period: float
+    ) -> "Bretschneider":
+        """By the zero-crossing period T_z = 2π √(m0/m2) [s]."""
+        period = require_positive("zero_crossing_period", zero_crossing_period, "s")
+        return cls(significant_wave_height, period / ZERO_CROSSING_RATIO)
+
+    @classmethod
+    def one_parameter(cls, significant_wave_height: float) -> "Bretschneider":
+        """The fully developed sea of a height, with the tail α g² ω⁻⁵ of Pierson and Moskowitz.
+
+        SIMULATORS (4) over ω: B = 4 α g²/H_s²; printed with (2π)² for (2π)⁴ over f.
+        """
+        height = require_positive("significant_wave_height", significant_wave_height, "m")
+        peak_frequency = (3.2 * PHILLIPS_LEVEL) ** 0.25 * np.sqrt(STANDARD_GRAVITY / height)
+        return cls(height, float(2 * np.pi / peak_frequency))
 
     @property
-    def nominal_steepness(self) -> float:
-        """2π H_s / (g T_p²), TM 2003-190 (56)."""
-        return nominal_steepness(self.significant_wave_height, self.peak_period)
-
-    @property
-    def _shape(self) -> tuple[float, float]:
-        b = 1.25 * (2 * np.pi / self.peak_period) ** 4
-        return b * self.significant_wave_height**2 / 4, b
+    def _peak_frequency(self) -> float:
+        return 2 * np.pi / self.peak_period
 
     def density(self, omega: ArrayLike) -> FloatArray:
-        """Spectral density [m² s/rad] at the frequencies omega [rad/s]; zero at ω ≤ 0."""
-        omega = np.asarray(omega, dtype=float)
-        a, b = self._shape
-        safe = np.where(omega > 0, omega, 1.0)
-        return np.where(omega > 0, a / safe**5 * np.exp(-b / safe**4), 0.0)
+        b = 1.25 * self._peak_frequency**4
+        a = b * self.significant_wave_height**2 / 4
+        omega = np.maximum(require_numbers(omega), SMALLEST_RATIO * self._peak_frequency)
+        with np.errstate(over="ignore"):  # of powers of frequencies past 1e60 rad/s: the tail is 0 there
+            return a / omega**5 * np.exp(-b / omega**4)
 
-    def moment(self, n: int) -> float:
-        """Moment m_n = ∫ S ω^n dω, TM 2003-190 (38), in closed form for n < 4; m4 diverges."""
-        if n >= 4:
-            raise PanelsimError(
-                "The moment diverges for a spectrum with an ω⁻⁵ tail", got=f"n = {n}", allowed="n below 4"
-            )
-        a, b = self._shape
-        return float(a / 4 * b ** (n / 4 - 1) * gamma(1 - n / 4))
+    def moment(self, n: int, upper_frequency: float | None = None) -> float:
+        """Moment m_n = ∫ S ωⁿ dω, TM 2003-190 (38), in closed form; m4 needs an upper frequency [rad/s]."""
+        upper = self._upper(n, upper_frequency)
+        return system_moment(n, self.significant_wave_height, self._peak_frequency, 1.0, upper)
 
-    def energy_between(self, low: float, high: float) -> float:
-        """Share of m0 between two frequencies [rad/s], from the closed form of the integral."""
-        _, b = self._shape
-        below = np.exp(-b / low**4) if low > 0 else 0.0
-        return float(np.exp(-b / high**4) - below)
+    def _share_below(self, frequency: float) -> float:
+        return system_share_below(frequency, self._peak_frequency, 1.0)
+
+    def frequency_below(self, share: float) -> float:
+        share = require_share(share)
+        if share in (0.0, 1.0):
+            return np.inf if share else 0.0
+        return float(self._peak_frequency * (-1.25 / np.log(share)) ** 0.25)

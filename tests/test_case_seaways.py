@@ -1,0 +1,295 @@
+"""The table [seaway] of a case: what each kind of sea asks for, and that it becomes what a script builds."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from panelsim.case import Case
+from panelsim.errors import PanelsimError
+from panelsim.seaway.components import WaveComponents
+from panelsim.seaway.direction.spreading import CosineHalfAngle, CosinePower, CosineSquared
+from panelsim.seaway.direction.ten_parameter import TenParameterSpectrum
+from panelsim.seaway.exchange.components_csv import write_components
+from panelsim.seaway.frequencies import EqualEnergyFrequencies, JitteredFrequencies
+from panelsim.seaway.random import RandomSeaway
+from panelsim.seaway.spectra.bretschneider import Bretschneider
+from panelsim.seaway.spectra.jonswap import Jonswap
+from panelsim.seaway.spectra.ochi_hubble import OchiHubble
+from panelsim.seaway.spectra.pierson_moskowitz import PiersonMoskowitz
+
+REST = """
+[ship]
+hull = "halifax"
+panel_area = 20
+[run]
+speed_knots = 20
+time_step = 0.2
+duration = 20
+"""
+RANDOM = 'kind = "random"\n'
+TEN = 'spectrum = "ten-parameter"\ndirection_step_deg = 10\n'
+GRID = "frequencies = { start = 0.3, stop = 2.0, step = 0.05 }\n"
+WAVES = GRID + "wave_heading_deg = 150\n"
+SYSTEMS = """
+[[seaway.systems]]
+significant_wave_height = 2.0
+peak_period = 12.0
+shape = 3.0
+{swell}
+[[seaway.systems]]
+significant_wave_height = 3.0
+peak_period = 8.0
+shape = 1.5
+{sea}
+"""
+
+
+def case_of(folder: Path, seaway: str, course: float | None = None) -> Case:
+    text = REST if course is None else f"{REST}ship_heading_deg = {course}\n"
+    path = folder / "trial.toml"
+    path.write_text(f"{text}[seaway]\n{seaway}", encoding="utf-8")
+    return Case.load(path)
+
+
+def random_sea(folder: Path, seaway: str, course: float | None = None) -> RandomSeaway:
+    sea = case_of(folder, f"{RANDOM}{seaway}", course).seaway
+    assert isinstance(sea, RandomSeaway)
+    return sea
+
+
+@pytest.mark.parametrize(
+    ("keys", "spectrum"),
+    [
+        ("significant_wave_height = 4\npeak_period = 10", Bretschneider(4.0, 10.0)),
+        ("significant_wave_height = 4\nmean_period = 8", Bretschneider.from_mean_period(4.0, 8.0)),
+        (
+            "significant_wave_height = 4\nzero_crossing_period = 7",
+            Bretschneider.from_zero_crossing_period(4.0, 7.0),
+        ),
+        # TM 2004-041 Table 1: sea state 6 has 5 m and 12.4 s.
+        ("sea_state = 6", Bretschneider(5.0, 12.4)),
+        (
+            'spectrum = "bretschneider-one-parameter"\nsignificant_wave_height = 4',
+            Bretschneider.one_parameter(4.0),
+        ),
+        ('spectrum = "jonswap"\nsignificant_wave_height = 4\npeak_period = 10', Jonswap(4.0, 10.0)),
+        (
+            'spectrum = "jonswap"\nsea_state = 6\npeak_enhancement = 2\nnormalisation = "logarithmic"',
+            Jonswap(5.0, 12.4, 2.0, normalisation="logarithmic"),
+        ),
+        ('spectrum = "jonswap"\nwind_speed = 15\nfetch = 2e5', Jonswap.from_wind(15.0, 2e5)),
+        ('spectrum = "dnv"\nsignificant_wave_height = 4\npeak_period = 9', Jonswap.dnv(4.0, 9.0)),
+        ('spectrum = "pierson-moskowitz"\nwind_speed = 15', PiersonMoskowitz(15.0)),
+        (
+            'spectrum = "pierson-moskowitz"\nsignificant_wave_height = 4',
+            PiersonMoskowitz.from_significant_wave_height(4.0),
+        ),
+    ],
+)
+def test_each_spectrum_can_be_given(tmp_path: Path, keys: str, spectrum: object) -> None:
+    assert random_sea(tmp_path, f"{keys}\n{WAVES}").spectrum == spectrum
+
+
+def test_the_example_of_a_spectrum_table_is_read_beside_the_case(tmp_path: Path) -> None:
+    rows = "".join(f"{w},{Bretschneider(3.0, 10.0).density(w)}\n" for w in np.linspace(0.1, 3.0, 200))
+    (tmp_path / "sea.csv").write_text(f"frequency_rad_s,density\n{rows}")
+    sea = random_sea(tmp_path, f'spectrum = "table"\nfile = "sea.csv"\n{WAVES}')
+    # 0.3 to 2 rad/s hold 98.9 % of the energy.
+    assert 4 * np.sqrt(sea.components.variance) == pytest.approx(3.0 * np.sqrt(0.989), rel=2e-3)
+
+
+def test_systems_of_an_ochi_hubble_and_a_ten_parameter_spectrum(tmp_path: Path) -> None:
+    plain = SYSTEMS.format(swell="", sea="")
+    sea = random_sea(tmp_path, f'spectrum = "ochi-hubble"\n{WAVES}{plain}')
+    assert sea.spectrum == OchiHubble((2.0, 3.0), (12.0, 8.0), (3.0, 1.5))
+    turned = SYSTEMS.format(
+        swell="sea_direction_deg = 45\nspread = 10", sea="sea_direction_deg = 300\nspread = 3"
+    )
+    ten = f"{TEN}{GRID}{turned}"
+    directional = random_sea(tmp_path, ten, course=20).spectrum
+    assert isinstance(directional, TenParameterSpectrum)
+    # The swell comes from the north-east: at the longest waves there is nothing else.
+    assert directional.mean_direction(0.42) == pytest.approx(np.deg2rad(45), abs=np.deg2rad(3))
+
+
+@pytest.mark.parametrize(
+    ("spreading", "expected"),
+    [
+        ('{ kind = "cosine-squared", spreading_angle_deg = 60 }', CosineSquared(np.deg2rad(60))),
+        ('{ kind = "cosine-power", power = 4 }', CosinePower(4.0)),
+        ('{ kind = "cosine-half-angle", spread = 8 }', CosineHalfAngle(8.0)),
+    ],
+)
+def test_short_crested_seas(tmp_path: Path, spreading: str, expected: object) -> None:
+    keys = f"sea_state = 6\nspreading = {spreading}\ndirection_step_deg = 15\n{WAVES}"
+    sea = random_sea(tmp_path, keys)
+    assert sea.spreading == expected
+    waves = sea.components
+    mean = np.angle(np.sum(waves.amplitude**2 * np.exp(1j * waves.wave_heading)))
+    # Symmetric about the mean heading: rounding.
+    assert np.rad2deg(mean) == pytest.approx(150.0, abs=1e-9)
+
+
+def test_choices_of_frequencies(tmp_path: Path) -> None:
+    start = "sea_state = 6\nwave_heading_deg = 0\n"
+    jittered = 'frequencies = { choice = "jittered", start = 0.3, stop = 2.0, step = 0.05 }\n'
+    assert random_sea(tmp_path, start + jittered).frequencies == JitteredFrequencies(0.3, 2.0, 0.05)
+    equal = 'frequencies = { choice = "equal-energy", count = 30 }\n'
+    assert random_sea(tmp_path, start + equal).frequencies == EqualEnergyFrequencies(30)
+
+
+def test_compass_directions_of_a_spectrum_turn_with_the_course(tmp_path: Path) -> None:
+    """The same sea from the north-east, for a ship going north and one going east: β less by 90°."""
+    turned = SYSTEMS.format(
+        swell="sea_direction_deg = 45\nspread = 10", sea="sea_direction_deg = 45\nspread = 10"
+    )
+    ten = f"{TEN}{GRID}{turned}"
+    north, east = (random_sea(tmp_path, ten, course).components for course in (0, 90))
+    turn = np.angle(np.exp(1j * (east.wave_heading - north.wave_heading)))
+    np.testing.assert_allclose(turn, -np.pi / 2, atol=1e-12)  # rounding
+    # From the north-east a ship going north has them on the starboard bow: β = 45° + 180°.
+    mean = np.angle(np.sum(north.amplitude**2 * np.exp(1j * north.wave_heading)))
+    assert np.rad2deg(mean) % 360 == pytest.approx(225.0, abs=1.0)  # directions in steps of 10°
+
+
+def test_stokes_waves_and_wave_length(tmp_path: Path) -> None:
+    keys = 'kind = "regular"\nwave_height = 5\nwave_length = 100\nwave_heading_deg = 180\n'
+    waves = case_of(tmp_path, keys + 'wave_theory = "stokes"').seaway.components
+    assert waves.second_order
+    assert waves.wavenumber()[0] == pytest.approx(2 * np.pi / 100, rel=1e-12)
+    assert not case_of(tmp_path, keys).seaway.components.second_order
+
+
+def test_components_of_a_file_are_those_that_were_written(tmp_path: Path) -> None:
+    given = WaveComponents(
+        np.array([1.0, 0.5]), np.array([0.5, 0.9]), np.array([2.0, 3.0]), np.array([0.1, 4.0])
+    )
+    write_components(tmp_path / "waves.csv", given)
+    sea = case_of(tmp_path, 'kind = "components"\nfile = "waves.csv"').seaway
+    assert sea.kind == "components"
+    np.testing.assert_allclose(sea.components.wave_heading, given.wave_heading, rtol=1e-14)
+
+
+def test_a_recorded_sea(tmp_path: Path) -> None:
+    time = np.arange(0, 200, 0.5)
+    elevation = 1.2 * np.cos(2 * np.pi * time * 20 / 200 + 0.7)
+    rows = "".join(f"{t},{z}\n" for t, z in zip(time, elevation, strict=True))
+    (tmp_path / "buoy.csv").write_text(f"time_s,elevation_m\n{rows}")
+    keys = (
+        'kind = "record"\nfile = "buoy.csv"\nlow_frequency = 0.3\nhigh_frequency = 2\nwave_heading_deg = 180'
+    )
+    case = case_of(tmp_path, keys)
+    view = case.seaway.in_translating_axes(0.0)
+    # One Fourier wave of the record: rounding of the file and the transform.
+    np.testing.assert_allclose(view.elevation(0.0, 0.0, time), elevation, atol=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("seaway", "words"),
+    [
+        (
+            f"{RANDOM}{WAVES}",
+            ["bretschneider", "significant_wave_height and peak_period", "sea_state"],
+        ),
+        (f"{RANDOM}significant_wave_height = 4\n{WAVES}", ["also needs peak_period"]),
+        (
+            f"{RANDOM}significant_wave_height = 4\npeak_period = 9\nmean_period = 8\n{WAVES}",
+            ["both mean_period and peak_period", "give one"],
+        ),
+        (
+            f"{RANDOM}sea_state = 5\npeak_period = 9\n{WAVES}",
+            ["has no peak_period"],
+        ),
+        (f"{RANDOM}sea_state = 5\nwave_heading_deg = 0", ["also needs frequencies"]),
+        (f'{RANDOM}spectrum = "dnv"\nwind_speed = 5\n{WAVES}', ["dnv", "significant_wave_height"]),
+        (f"{RANDOM}sea_state = 5\npeak_enhancement = 2\n{WAVES}", ["has no peak_enhancement"]),
+        (
+            f'{RANDOM}spectrum = "jonswap"\nsea_state = 5\npeak_enhancement = 0.5\n{WAVES}',
+            ["at least 1"],
+        ),
+        (f"{RANDOM}sea_state = 0\n{WAVES}", ["sea state", "no peak period"]),
+        (f"{RANDOM}sea_state = 5\nwave_height = 2\n{WAVES}", ["has no wave_height"]),
+        (f'{RANDOM}spectrum = "table"\nfile = "nowhere.csv"\n{WAVES}', ["nowhere.csv"]),
+        (
+            f'{RANDOM}sea_state = 5\ndirection_step_deg = 9\nspreading = {{ kind = "cosine-power" }}\n'
+            + WAVES,
+            ["also needs power"],
+        ),
+        (
+            f'{RANDOM}sea_state = 5\nspreading = {{ kind = "cosine-power", power = 2 }}\n{WAVES}',
+            ["direction_step_deg"],
+        ),
+        (f"{RANDOM}sea_state = 5\ndirection_step_deg = 9\n{WAVES}", ["add spreading"]),
+        (
+            f'{RANDOM}spectrum = "ochi-hubble"\n{WAVES}{SYSTEMS.format(swell="spread = 3", sea="")}',
+            ["system 1", "has no spread", "ten-parameter"],
+        ),
+        (
+            f"{RANDOM}{TEN}{GRID}{SYSTEMS.format(swell='spread = 3', sea='')}",
+            ["system 1", "also needs sea_direction_deg"],
+        ),
+        (
+            f"{RANDOM}{TEN}{WAVES}{SYSTEMS.format(swell='', sea='')}",
+            ["sea_direction_deg"],
+        ),
+        (
+            RANDOM
+            + 'sea_state = 5\nwave_heading_deg = 0\nfrequencies = { choice = "equal-energy", step = 1 }',
+            ["also need count"],
+        ),
+        (
+            RANDOM
+            + "sea_state = 5\nwave_heading_deg = 0\nfrequencies = { start = 1, stop = 0.5, step = 0.1 }",
+            ["stop is not above start"],
+        ),
+        (
+            'kind = "regular"\nwave_height = 2\nwave_heading_deg = 0',
+            ["also needs wave_frequency", "wave_period"],
+        ),
+        (
+            'kind = "regular"\nwave_height = 2\nwave_length = 90\nwave_period = 9\nwave_heading_deg = 0',
+            ["both wave_length and wave_period"],
+        ),
+        (
+            'kind = "record"\nfile = "a.csv"\nwave_heading_deg = 0',
+            ["also needs low_frequency, high_frequency"],
+        ),
+        ('kind = "components"\nfile = "a.csv"\nwave_heading_deg = 0', ["brings its own directions"]),
+        ('kind = "components"\nfile = "a.csv"', ["a.csv"]),
+        ('kind = "dataset"\nfile = "a.nc"', ["also needs format"]),
+        ('kind = "dataset"\nformat = "netcdf"\nfile = "a.nc"', ["a.nc"]),
+        ('kind = "dataset"\nformat = "netcdf"\nfiles = ["a", "b"]', ["seaway.files", "at least 5"]),
+    ],
+)
+def test_what_does_not_make_a_sea_is_refused(tmp_path: Path, seaway: str, words: list[str]) -> None:
+    with pytest.raises(PanelsimError) as refused:
+        _ = case_of(tmp_path, seaway).seaway.components
+    message = str(refused.value)
+    assert all(word in message for word in words), message
+
+
+def test_compass_directions_need_a_course(tmp_path: Path) -> None:
+    turned = SYSTEMS.format(
+        swell="sea_direction_deg = 45\nspread = 10", sea="sea_direction_deg = 300\nspread = 3"
+    )
+    with pytest.raises(PanelsimError, match="ship_heading_deg"):
+        case_of(tmp_path, f"{RANDOM}{TEN}{GRID}{turned}")
+
+
+def test_a_misspelt_key_of_a_system_is_told_with_its_place(tmp_path: Path) -> None:
+    text = f'{RANDOM}spectrum = "ochi-hubble"\n{WAVES}{SYSTEMS.format(swell="", sea="")}'
+    with pytest.raises(PanelsimError) as refused:
+        case_of(tmp_path, text.replace("shape = 3.0", "shap = 3.0"))
+    assert "seaway.systems.0.shape?" in str(refused.value)
+
+
+def test_a_resolved_case_is_itself_a_case(tmp_path: Path) -> None:
+    """What a history keeps of its case can be run again: the same waves, bit by bit."""
+    turned = SYSTEMS.format(
+        swell="sea_direction_deg = 45\nspread = 10", sea="sea_direction_deg = 300\nspread = 3"
+    )
+    ten = f"{RANDOM}{TEN}{GRID}{turned}"
+    case = case_of(tmp_path, ten, course=20)
+    again = Case(type(case.file).model_validate(case.resolved()), tmp_path)
+    assert again.seaway.components.amplitude.tobytes() == case.seaway.components.amplitude.tobytes()

@@ -1,0 +1,151 @@
+"""`panelsim sea`: it prints the numbers of the sea, and its picture shows it the right way round."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import matplotlib.image
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from rich.console import Console
+
+from panelsim.case import Case
+from panelsim.cli import show_sea
+from panelsim.conventions import KNOT
+from panelsim.motion.notes import _scatter_note
+from panelsim.seaway.components import WaveComponents
+from panelsim.seaway.exchange.components_csv import read_components
+from panelsim.seaway.given import ComponentSeaway
+from panelsim.seaway.random import RandomSeaway
+from panelsim.seaway.regular import RegularSeaway
+from panelsim.seaway.repeat import variance_scatter
+from panelsim.seaway.spectra.bretschneider import Bretschneider
+from panelsim.ship.ship import Ship
+from panelsim.view.sea_picture import sea_picture
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+GRID = 0.1 * np.arange(2, 21)
+SPEED = 20 * KNOT
+
+
+def printed(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], case: Case) -> str:
+    console = Console(width=80, highlight=False, markup=False)
+    monkeypatch.setattr(show_sea, "out", console)
+    monkeypatch.setattr(show_sea, "say", console.print)
+    capsys.readouterr()
+    show_sea.show_sea(case)
+    return capsys.readouterr().out
+
+
+def row(text: str, name: str) -> list[float]:
+    line = next(line for line in text.splitlines() if line.strip().startswith(name))
+    return [float(word) for word in line.split()[-2:]]  # the columns spectrum and components
+
+
+def test_target_and_realised_parameters_stand_side_by_side(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = printed(monkeypatch, capsys, Case.load(EXAMPLES / "halifax_sea_state_7.toml"))
+    assert max(map(len, text.splitlines())) <= 80
+    target, realised = row(text, "significant wave height")
+    # 19 components hold 99.1 % of the variance.
+    assert target == 7.5
+    assert realised == pytest.approx(7.5 * np.sqrt(0.9913), abs=2e-3)
+    # Bretschneider: T1 = 0.77177 T_p, T_z = 0.71037 T_p; four digits are printed.
+    assert row(text, "mean period")[0] == pytest.approx(0.77177 * 15, abs=6e-3)
+    assert row(text, "zero-crossing period")[0] == pytest.approx(0.71037 * 15, abs=6e-3)
+    assert row(text, "nominal steepness")[0] == pytest.approx(0.02136, abs=1e-5)
+    assert "mean wave heading [deg], 0 following, 180 head" in text
+    assert "after 346 s" in " ".join(text.split())
+
+
+def test_the_command_leaves_a_picture_and_the_components(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from panelsim.cli import main
+
+    def call(*arguments: object) -> int:
+        monkeypatch.setattr("sys.argv", ["panelsim", "sea", *map(str, arguments)])
+        with pytest.raises(SystemExit) as ended:
+            main()
+        return int(ended.value.code or 0)
+
+    case = EXAMPLES / "short_crested_sea.toml"
+    folder = tmp_path / "sea"
+    assert call(case, "--out", folder, "--set", "ship.panel_area=20") == 0
+    assert sorted(path.name for path in folder.iterdir()) == ["components.csv", "sea.png"]
+    read, made = read_components(folder / "components.csv"), Case.load(case).seaway.components
+    np.testing.assert_array_equal(read.amplitude, made.amplitude)
+    # An occupied folder is refused, and so is calm water, before anything is written.
+    assert call(case, "--out", folder) == 2
+    assert "not empty" in capsys.readouterr().err
+    calm = tmp_path / "calm.toml"
+    calm.write_text(
+        '[ship]\nhull="box"\n[seaway]\nkind="calm"\n[run]\nspeed_knots=0\ntime_step=1\nduration=9\n'
+    )
+    assert call(calm, "--out", tmp_path / "none") == 2
+    assert not (tmp_path / "none").exists()
+
+
+@pytest.fixture
+def drawn(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Figure]]:
+    """The figures that were saved."""
+    figures: list[Figure] = []
+    save = Figure.savefig
+
+    def keep(self: Figure, *args: object, **kwargs: object) -> None:
+        figures.append(self)
+        save(self, *args, **kwargs)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(Figure, "savefig", keep)
+    yield figures
+
+
+def test_the_picture_shows_where_waves_come_from(barge: Ship, tmp_path: Path, drawn: list[Figure]) -> None:
+    """Waves from port (β = 90°), 100 m long: the bar is at port, crests lie along the ship."""
+    wave = RegularSeaway(1.0, float(np.sqrt(2 * np.pi * barge.gravity / 100.0)), np.pi / 2, phase=-np.pi / 2)
+    path = sea_picture(wave, barge, 0.0, tmp_path / "sea.png")
+    assert matplotlib.image.imread(path).shape[1] >= 1200
+    spectrum, _, directions, surface = drawn[0].axes[:4]
+    (bar,) = directions.patches
+    side = bar.get_x() + 0.5 * bar.get_width()
+    # Clockwise from the bow: port is at 270°.
+    assert np.rad2deg(side) % 360 == pytest.approx(270.0, abs=1e-4)  # directions are drawn to 1e-6 rad
+    assert directions.get_theta_direction() == -1  # type: ignore[attr-defined]
+    # cos(−ky + π/2) = sin(ky): a crest 25 m to port, a trough 25 m to starboard.
+    mesh = surface.collections[0]
+    shape = tuple(n - 1 for n in mesh.get_coordinates().shape[:2])
+    elevation = np.asarray(mesh.get_array()).reshape(shape)
+    starboard = 0.5 * (mesh.get_coordinates()[0, 1:, 0] + mesh.get_coordinates()[0, :-1, 0])
+    assert elevation[0][np.argmin(abs(starboard + 25))] > 0.9
+    assert elevation[0][np.argmin(abs(starboard - 25))] < -0.9
+    assert np.ptp(elevation[:, 3]) < 1e-9  # long-crested along the ship
+    assert sum(p.get_height() * p.get_width() for p in spectrum.patches) == pytest.approx(0.5, rel=1e-9)
+
+
+def test_overtaken_waves_are_told_apart(barge: Ship, tmp_path: Path, drawn: list[Figure]) -> None:
+    """At 10 m/s a following wave of 1.5 rad/s is overtaken, one of 0.5 rad/s is not."""
+    waves = WaveComponents(np.array([1.0, 0.5]), np.array([0.5, 1.5]), np.zeros(2), np.zeros(2))
+    sea_picture(ComponentSeaway(waves), barge, 10.0, tmp_path / "sea.png")
+    encounter = drawn[0].axes[1]
+    areas = {
+        bars.get_label(): sum(p.get_height() * p.get_width() for p in bars) for bars in encounter.containers
+    }
+    assert areas == pytest.approx({"components": 0.5, "overtaken by the ship": 0.125}, rel=1e-9)
+
+
+@pytest.mark.parametrize(("heading_deg", "told"), [(150, None), (30, "beat for hours")])
+def test_a_run_whose_statistics_hang_on_the_seed_says_so(heading_deg: float, told: str | None) -> None:
+    """The report's grid at 20 knots: 0.5 and 0.6 rad/s meet the ship alike at 30°, not at 150°."""
+    sea = RandomSeaway(Bretschneider(7.5, 15.0), GRID, np.deg2rad(heading_deg), 1)
+    notes = _scatter_note(sea.components, SPEED, 1860.0, 9.80665)
+    if told is None:
+        assert notes == []
+        return
+    scatter = variance_scatter(sea.components, SPEED, 1860.0)
+    assert told in notes[0]
+    assert f"by {50 * scatter:.0f} %" in notes[0]
+    # A short run in an ordinary sea is only too short.
+    dense = RandomSeaway(Bretschneider(7.5, 15.0), np.arange(0.2, 2.0, 0.002), np.deg2rad(150), 1)
+    (short,) = _scatter_note(dense.components, SPEED, 30.0, 9.80665)
+    assert "a longer run" in short
