@@ -67,7 +67,7 @@ def test_headings_are_averaged_around_the_circle(make_history: MakeHistory, tmp_
     heading = np.deg2rad([10.0, 350.0])
     waves = WaveComponents(np.array([1.0, 1.0]), np.array([0.8, 0.8]), heading, np.zeros(2))
     page = report(make_history(components=waves), tmp_path).read_text(encoding="utf-8")
-    degrees = float(page.split("| wave heading | ")[1].split(" deg")[0])
+    degrees = float(page.split("| wave heading | mean ")[1].split(" deg")[0])
     assert degrees == 0.0
 
 
@@ -79,3 +79,17 @@ def test_regular_waves_have_a_height_and_calm_water_has_none(
     assert page.startswith("# barge: regular waves, height 3 m, 180 deg, 9.7 knots")
     page = report(make_history(components=NO_WAVES, seaway_kind="calm"), tmp_path / "b").read_text("utf-8")
     assert page.startswith("# barge: calm water, 9.7 knots")
+
+
+def test_the_page_tells_a_short_crested_sea_and_a_stokes_wave(
+    make_history: MakeHistory, tmp_path: Path
+) -> None:
+    """Two equal waves 60° to each side of a mean of 100°: R = cos 60°, spread √(2(1 − R)) = 57.3°."""
+    headings = np.deg2rad([40.0, 160.0])
+    sea = WaveComponents(np.ones(2), np.array([0.8, 1.0]), headings, np.zeros(2))
+    page = report(make_history(components=sea), tmp_path / "sea").read_text(encoding="utf-8")
+    assert "mean 100.0 deg (0 following, 90 from port, 180 head), directional spread 57.3 deg" in page
+    wave = WaveComponents(np.ones(1), np.array([0.8]), headings[:1], np.zeros(1), second_order=True)
+    page = report(make_history(components=wave), tmp_path / "wave").read_text(encoding="utf-8")
+    assert "height 2 m, Stokes second order" in page
+    assert "directional spread" not in page

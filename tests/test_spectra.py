@@ -143,6 +143,14 @@ def test_energy_between_and_its_inverse(spectrum: PointSpectrum) -> None:
     assert spectrum.frequency_below(1.0) == np.inf
 
 
+def test_the_share_of_the_far_tail() -> None:
+    """Past 30 ω_p lies 1 − exp(−(5/4)/30⁴) = 1.5e-6 of a Bretschneider sea, here by quadrature."""
+    sea = Plain(Bretschneider(3.0, 9.0))
+    assert sea.energy_between(30 * 2 * np.pi / 9.0, np.inf) == pytest.approx(
+        -np.expm1(-1.25 / 30**4), abs=1e-11
+    )
+
+
 # JONSWAP and Ochi-Hubble.
 
 

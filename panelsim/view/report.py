@@ -131,14 +131,20 @@ def _sea(history: History) -> str:
 def _wave_height(history: History) -> str:
     waves = history.components
     if waves.count == 1:
-        return f"height {2.0 * waves.amplitude[0]:.3g} m"
+        theory = ", Stokes second order" if waves.second_order else ""
+        return f"height {2.0 * waves.amplitude[0]:.3g} m{theory}"
     return f"significant height {4.0 * np.sqrt(waves.variance):.3g} m"
 
 
 def _heading(history: History) -> str:
     if not history.components.count:
         return "none"
-    return f"{_heading_degrees(history):.1f} deg (0 following, 90 from port, 180 head)"
+    heading = f"{_heading_degrees(history):.1f} deg (0 following, 90 from port, 180 head)"
+    waves = history.components
+    if not np.ptp(waves.wave_heading):
+        return heading
+    mean = np.average(np.exp(1j * waves.wave_heading), weights=waves.amplitude**2)
+    return f"mean {heading}, directional spread {np.rad2deg(np.sqrt(2 * (1 - abs(mean)))):.1f} deg"
 
 
 def _heading_degrees(history: History) -> float:
