@@ -239,10 +239,10 @@ def test_characteristics_of_one_wave() -> None:
 
 
 def test_heights_are_those_of_rayleigh() -> None:
-    """Of 4e6 Rayleigh heights of m0 = 1: mean 2.507, RMS 2.828, highest tenth 5.091."""
-    sea = characteristics(Bretschneider(4.0, 12.0), 5.0)
-    heights = np.sort(np.random.default_rng(1).rayleigh(2.0, 4_000_000))
-    assert sea.m0 == pytest.approx(1.0, rel=ROUNDING)
+    """Of 4e6 Rayleigh heights: mean 2.507, RMS 2.828, highest tenth 5.091, all times √m0 = 1.5 m."""
+    sea = characteristics(Bretschneider(6.0, 12.0), 5.0)
+    heights = np.sort(np.random.default_rng(1).rayleigh(2 * 1.5, 4_000_000))
+    assert sea.m0 == pytest.approx(1.5**2, rel=ROUNDING)
     # The sampling error of the mean of the highest tenth is 0.05 %.
     assert sea.mean_wave_height == pytest.approx(heights.mean(), rel=1e-3)
     assert sea.rms_wave_height == pytest.approx(np.sqrt(np.mean(heights**2)), rel=1e-3)
@@ -269,6 +269,7 @@ def test_characteristics_of_a_spectrum_and_of_its_fine_components(spectrum: Poin
         want.corrected_significant_wave_height, rel=1e-3
     )
     assert got.peak_period == pytest.approx(want.peak_period, rel=1e-3)  # the step of the grid
+    assert (got.upper_frequency, want.upper_frequency) == (omega[-1], 6.0)
     squared = np.sum(omega * spectrum.density(omega) ** 2) * step
     assert want.peakedness == pytest.approx(2 * squared / want.m0**2, rel=1e-5)
     assert want.mean_period == spectrum.mean_period
@@ -535,7 +536,7 @@ def test_the_singular_frequency_is_told() -> None:
         (lambda: Jonswap(3.0, 9.0).frequency_below(float("nan")), "nan"),
         (lambda: TableSpectrum([0.3, 0.6], [1.0, 2.0]).frequency_below(-0.1), "-0.1"),
         (lambda: Bretschneider(3.0, 9.0).density("fast"), "no numbers"),
-        (lambda: Bretschneider(3.0, 9.0).bandwidth(0.01), "no energy below"),
+        (lambda: Bretschneider(3.0, 9.0).bandwidth(0.01), "more than the peak, 0.698 rad/s"),
         (lambda: characteristics(Bretschneider(3.0, 9.0), 0.0), "upper_frequency"),
         (lambda: characteristics(TableSpectrum([0.3, 0.6], [1.0, 2.0]), 0.2), "no energy below"),
         (lambda: encounter_branches(-0.1, 9.0, 0.0), "-0.1"),

@@ -126,13 +126,20 @@ class PointSpectrum(ABC):
         pieces = [self.integral(self.density, a, b) for a, b in pairwise([0.0, *self.break_frequencies])]
         return np.cumsum(pieces) / self.moment(0)
 
+    @cached_property
+    def _shares_at_breaks(self) -> FloatArray:
+        return np.array([self._share_below(frequency) for frequency in self.break_frequencies])
+
     def frequency_below(self, share: float) -> float:
         """Frequency [rad/s] under which a share of m0 lies: the inverse of `energy_between(0, ·)`."""
         share = require_share(share)
         first, last = self.frequency_range
         if share in (0.0, 1.0):
             return last if share else first
-        low, high = first, min(2 * np.pi / self.peak_period, last)
+        # Between two breaks, or past the last of them.
+        breaks = self.break_frequencies
+        i = int(np.searchsorted(self._shares_at_breaks, share))
+        low, high = breaks[i - 1] if i else first, breaks[min(i, len(breaks) - 1)]
         while self._share_below(high) < share:
             low, high = high, min(2 * high, last)
         return float(
