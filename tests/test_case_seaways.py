@@ -4,13 +4,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from panelsim.case import Case
 from panelsim.errors import PanelsimError
 from panelsim.seaway.components import WaveComponents
+from panelsim.seaway.direction.spread_spectrum import SpreadSpectrum
 from panelsim.seaway.direction.spreading import CosineHalfAngle, CosinePower, CosineSquared
 from panelsim.seaway.direction.ten_parameter import TenParameterSpectrum
 from panelsim.seaway.exchange.components_csv import write_components
+from panelsim.seaway.exchange.datasets import dataset_from_spectrum
+from panelsim.seaway.exchange.ndbc import read_ndbc_meteorology
 from panelsim.seaway.frequencies import EqualEnergyFrequencies, JitteredFrequencies
 from panelsim.seaway.random import RandomSeaway
 from panelsim.seaway.spectra.bretschneider import Bretschneider
@@ -293,3 +297,175 @@ def test_a_resolved_case_is_itself_a_case(tmp_path: Path) -> None:
     case = case_of(tmp_path, ten, course=20)
     again = Case(type(case.file).model_validate(case.resolved()), tmp_path)
     assert again.seaway.components.amplitude.tobytes() == case.seaway.components.amplitude.tobytes()
+
+
+# --- every key arrives ---
+
+
+RECORD_TIME = np.arange(0, 200, 0.5)
+
+
+@pytest.fixture
+def record_file(tmp_path: Path) -> Path:
+    """A record of two waves, 0.6283 and 1.2566 rad/s, that starts and ends at different heights."""
+    elevation = np.cos(0.2 * np.pi * RECORD_TIME + 0.7) + 0.5 * np.cos(0.4 * np.pi * RECORD_TIME - 1.0)
+    rows = "".join(f"{t},{z},{2 * z}\n" for t, z in zip(RECORD_TIME, elevation, strict=True))
+    path = tmp_path / "buoy.csv"
+    path.write_text(f"t,up,twice\n{rows}")
+    return path
+
+
+RECORD = (
+    'kind = "record"\nfile = "buoy.csv"\ntime_column = "t"\nelevation_column = "up"\nwave_heading_deg = 160\n'
+)
+
+
+def test_keys_of_a_record(tmp_path: Path, record_file: Path) -> None:
+    both = case_of(tmp_path, RECORD + "low_frequency = 0.3\nhigh_frequency = 2").seaway.components
+    np.testing.assert_allclose(np.sort(both.amplitude)[-2:], [0.5, 1.0], atol=1e-9)
+    upper = case_of(tmp_path, RECORD + "low_frequency = 1\nhigh_frequency = 2").seaway.components
+    assert upper.amplitude.max() == pytest.approx(0.5, abs=1e-9)
+    lower = case_of(tmp_path, RECORD + "low_frequency = 0.3\nhigh_frequency = 1").seaway.components
+    assert (lower.amplitude.max(), lower.frequency.max() <= 1) == (pytest.approx(1.0, abs=1e-9), True)
+    faded = case_of(
+        tmp_path, RECORD + "low_frequency = 0.3\nhigh_frequency = 1\ntaper = 0.5"
+    ).seaway.components
+    assert np.sum(faded.amplitude > 0.01) > 1  # a tapered wave has neighbours in the spectrum
+    twice = case_of(
+        tmp_path, RECORD.replace("up", "twice") + "low_frequency = 0.3\nhigh_frequency = 1"
+    ).seaway.components
+    assert twice.amplitude.max() == pytest.approx(2.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        'kind = "regular"\nwave_height = 2\nwave_period = 9\nwave_heading_deg = 160',
+        f"{RANDOM}sea_state = 5\n{WAVES}",
+        f"{RECORD}low_frequency = 0.3\nhigh_frequency = 2",
+        'kind = "components"\nfile = "waves.csv"',
+        'kind = "calm"',
+    ],
+)
+def test_the_course_arrives_at_every_kind_of_sea(tmp_path: Path, record_file: Path, keys: str) -> None:
+    """It is what fixed axes and other courses are counted from."""
+    waves = WaveComponents(np.ones(1), np.array([0.5]), np.array([2.0]), np.zeros(1))
+    write_components(tmp_path / "waves.csv", waves, overwrite=True)
+    assert case_of(tmp_path, keys, course=70).seaway.ship_heading == pytest.approx(np.deg2rad(70))
+
+
+def test_the_phase_of_a_regular_wave_is_in_degrees(tmp_path: Path) -> None:
+    keys = 'kind = "regular"\nwave_height = 2\nwave_frequency = 0.7\nwave_heading_deg = 160\nphase_deg = 30'
+    waves = case_of(tmp_path, keys).seaway.components
+    assert (waves.phase[0], waves.amplitude[0]) == (pytest.approx(np.pi / 6), 1.0)
+
+
+def test_the_wave_length_is_that_in_the_gravity_of_the_ship(tmp_path: Path) -> None:
+    keys = 'kind = "regular"\nwave_height = 2\nwave_length = 100\nwave_heading_deg = 180'
+    path = tmp_path / "trial.toml"
+    path.write_text(REST.replace("[run]", "gravity = 9.75\n[run]") + f"[seaway]\n{keys}")
+    case = Case.load(path)
+    assert case.seaway.components.wavenumber(case.ship.gravity)[0] == pytest.approx(
+        2 * np.pi / 100, rel=1e-12
+    )
+
+
+def test_seed_dropping_and_minimum_energy_arrive(tmp_path: Path) -> None:
+    spreading = 'spreading = { kind = "cosine-squared", spreading_angle_deg = 90 }\ndirection_step_deg = 20\n'
+    keys = f"sea_state = 6\n{spreading}"
+    sea = random_sea(tmp_path, keys + "seed = 12\n" + WAVES)
+    np.testing.assert_array_equal(
+        sea.components.phase, np.random.default_rng(12).uniform(0, 2 * np.pi, sea.components.count)
+    )
+    assert random_sea(tmp_path, keys + "drop_below = 1e-3\n" + WAVES).dropped > 0
+    with pytest.raises(PanelsimError, match="minimum_energy"):
+        random_sea(tmp_path, keys + "minimum_energy = 0.999\n" + WAVES)
+
+
+def test_limits_of_equal_energy_arrive(tmp_path: Path) -> None:
+    equal = 'frequencies = { choice = "equal-energy", count = 30, start = 0.35, stop = 1.5 }\n'
+    found = random_sea(tmp_path, f"sea_state = 6\nwave_heading_deg = 0\n{equal}").frequencies
+    assert found == EqualEnergyFrequencies(30, 0.35, 1.5)
+
+
+# --- datasets ---
+
+NDBC = Path(__file__).parent / "data" / "ndbc"
+METEOROLOGY = f'kind = "dataset"\nformat = "ndbc-meteorology"\nfile = "{NDBC / "99999.txt"}"\n'
+LATE = "time = '2020-06-08 03:50'\nfrequencies = { start = 0.3, stop = 3, step = 0.02 }\n"
+
+
+@pytest.fixture
+def dataset_file(tmp_path: Path) -> Path:
+    """Two times at two sites: a sea from the north-east whose height grows from one to the next."""
+    grid = 2 * np.pi * np.linspace(0.05, 0.35, 31), np.deg2rad(np.arange(0, 360, 15.0))
+    spread = CosineHalfAngle(8.0)
+    seas = [
+        dataset_from_spectrum(SpreadSpectrum(Jonswap(height, 9.0), spread, np.deg2rad(45)), *grid)
+        for height in (1.0, 2.0, 3.0, 4.0)
+    ]
+    rows = [xr.concat(seas[i : i + 2], "site").assign_coords(site=[0, 1]) for i in (0, 2)]
+    times = np.array(["2020-01-01T00:00", "2020-01-01T06:00"], dtype="datetime64[ns]")
+    path = tmp_path / "model.nc"
+    xr.concat(rows, "time").assign_coords(time=times).to_netcdf(path, engine="h5netcdf")
+    return path
+
+
+DATASET = 'kind = "dataset"\nfile = "model.nc"\nformat = "netcdf"\n'
+
+
+def test_time_and_site_of_a_dataset(tmp_path: Path, dataset_file: Path) -> None:
+    chosen = "time = '2020-01-01 06:00'\nsite = 0\n"
+    waves = case_of(tmp_path, DATASET + chosen, course=20).seaway.components
+    # A JONSWAP with Goda's factor in a table from 0.05 to 0.35 Hz: 3 m within 2 %.
+    assert 4 * np.sqrt(waves.variance) == pytest.approx(3.0, rel=0.02)
+    mean = np.angle(np.sum(waves.amplitude**2 * np.exp(1j * waves.wave_heading)))
+    assert np.rad2deg(mean) % 360 == pytest.approx(45 + 180 - 20, abs=1e-3)
+    with pytest.raises(PanelsimError, match="time"):
+        _ = case_of(tmp_path, DATASET + "site = 0\n", course=20).seaway
+
+
+@pytest.mark.parametrize(
+    ("keys", "course", "words"),
+    [
+        ("wave_heading_deg = 180\n", 20.0, "own directions"),
+        ("sea_direction_deg = 180\n", 20.0, "own directions"),
+        (
+            "spreading = { kind = 'cosine-power', power = 2 }\ndirection_step_deg = 10\n",
+            20.0,
+            "own directions",
+        ),
+        ("", None, "set run.ship_heading_deg"),
+    ],
+)
+def test_a_directional_dataset_has_its_own_directions(
+    tmp_path: Path, dataset_file: Path, keys: str, course: float | None, words: str
+) -> None:
+    chosen = "time = '2020-01-01 06:00'\nsite = 0\n"
+    with pytest.raises(PanelsimError, match=words):
+        _ = case_of(tmp_path, DATASET + chosen + keys, course).seaway
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        'format = "netcdf"\nfiles = ["a", "b", "c", "d", "e"]',
+        'format = "ndbc-meteorology"\nfiles = ["a", "b", "c", "d", "e"]',
+        'format = "ndbc"\nfile = "a"\nsite = 1',
+    ],
+)
+def test_keys_of_another_format_are_refused(tmp_path: Path, keys: str) -> None:
+    with pytest.raises(PanelsimError, match="format"):
+        case_of(tmp_path, f'kind = "dataset"\n{keys}')
+
+
+def test_a_buoy_tells_the_direction_where_the_case_does_not(tmp_path: Path) -> None:
+    buoy = read_ndbc_meteorology(NDBC / "99999.txt")
+    from_north = np.rad2deg(buoy.sea_direction_at("2020-06-08 03:50"))
+    sea = case_of(tmp_path, METEOROLOGY + LATE, course=70).seaway
+    assert isinstance(sea, RandomSeaway) and sea.wave_heading is not None
+    assert np.rad2deg(sea.wave_heading) == pytest.approx((from_north + 180 - 70) % 360, abs=1e-9)
+    given = case_of(tmp_path, METEOROLOGY + LATE + "wave_heading_deg = 10").seaway
+    assert np.rad2deg(given.components.wave_heading[0]) == pytest.approx(10)
+    with pytest.raises(PanelsimError, match="ship_heading_deg"):
+        _ = case_of(tmp_path, METEOROLOGY + LATE).seaway

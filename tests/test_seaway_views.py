@@ -623,3 +623,18 @@ FIXED, MOVING = WAVE.in_fixed_axes(), WAVE.in_translating_axes(5.0)
 def test_bad_input_is_refused(bad: Callable[[], object], words: str) -> None:
     with pytest.raises(PanelsimError, match=words):
         bad()
+
+
+def test_gravity_of_the_view_is_that_of_its_pressure_and_of_its_waves() -> None:
+    """Mars: k = ω²/g, p = ρ g(a cos θ e^{k(z − ζ)} − z), and (27) with that k at another course and time."""
+    g, rho, z = 3.71, 1025.0, -2.0
+    wave = RegularSeaway(1.0, 0.5, 0.3)
+    k = 0.25 / g
+    fixed = wave.in_fixed_axes(gravity=g)
+    dynamic = fixed.dynamic_pressure(0.0, 0.0, z, 0.0, water_density=rho)
+    assert dynamic == pytest.approx(rho * g * np.exp(k * (z - 1.0)), rel=1e-13)
+    total = fixed.pressure(0.0, 0.0, z, 0.0, water_density=rho)
+    assert total == pytest.approx(dynamic - rho * g * z, rel=1e-13)
+    moving = fixed.in_translating_axes(7.0, 1.1, time=40.0, position=(30.0, -20.0))
+    x, y = ship_position((30.0, -20.0), 7.0, 1.1, 25.0)
+    assert moving.elevation(0.0, 0.0, 65.0) == pytest.approx(fixed.elevation(x, y, 65.0), abs=1e-12)

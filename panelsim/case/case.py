@@ -59,7 +59,11 @@ class Case:
         """The waves. Raises PanelsimError for files and values that cannot be used."""
         heading, course = self.wave_heading, self.file.run.ship_heading_deg
         radians = None if course is None else float(np.deg2rad(course))
-        return SeawayBuilder(self.file.seaway, self.folder, heading, radians).build()
+        gravity = self.file.ship.gravity
+        builder = SeawayBuilder(
+            self.file.seaway, self.folder, wave_heading=heading, ship_heading=radians, gravity=gravity
+        )
+        return builder.build()
 
     @property
     def speed(self) -> float:

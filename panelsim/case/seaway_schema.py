@@ -188,6 +188,10 @@ class SeawaySection(Section):
         if foreign:
             raise ValueError(f"{self._name()} has no {', '.join(foreign)}")
         self._systems_fit()
+        if self.files is not None and self.format != "ndbc":
+            raise ValueError(f'a dataset of the format "{self.format}" is one file, not files')
+        if self.site is not None and self.format != "netcdf":
+            raise ValueError(f'a dataset of the format "{self.format}" has no site')
         self._headings_fit()
         if self.direction_step_deg is not None and not self._is_spread():
             raise ValueError("direction_step_deg is for short-crested seas: add spreading, or leave it out")

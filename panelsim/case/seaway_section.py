@@ -6,7 +6,7 @@ import numpy as np
 
 from panelsim.case.seaway_schema import FrequencySection, SeawaySection, SpreadingSection
 from panelsim.case.ship_section import beside
-from panelsim.conventions import STANDARD_GRAVITY, FloatArray
+from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.seaway.climate.sea_states import sea_state
 from panelsim.seaway.direction.directional_spectrum import DirectionalSpectrum
@@ -42,13 +42,20 @@ class SeawayBuilder:
     """Builds the seaway of one table [seaway] for a ship on its course.
 
     `folder` is that of the case file; `wave_heading` β and `ship_heading` χ in rad, None where the case
-    gives none.
+    gives none; `gravity` [m/s2] is that of the ship.
     """
 
     def __init__(
-        self, section: SeawaySection, folder: Path, wave_heading: float | None, ship_heading: float | None
+        self,
+        section: SeawaySection,
+        folder: Path,
+        *,
+        wave_heading: float | None,
+        ship_heading: float | None,
+        gravity: float,
     ) -> None:
         self._section = section
+        self._gravity = gravity
         self._folder = folder
         self._heading = wave_heading
         self._course_given = ship_heading is not None
@@ -73,7 +80,7 @@ class SeawayBuilder:
     def _regular(self) -> RegularSeaway:
         section = self._section
         if section.wave_length is not None:
-            frequency = np.sqrt(2 * np.pi * STANDARD_GRAVITY / section.wave_length)
+            frequency = np.sqrt(2 * np.pi * self._gravity / section.wave_length)
         else:
             frequency = section.wave_frequency or 2 * np.pi / (section.wave_period or np.nan)
         return RegularSeaway(
@@ -102,7 +109,7 @@ class SeawayBuilder:
         """The random sea of a spectrum, with a heading and perhaps a spreading, or its own directions."""
         section, directional = self._section, isinstance(spectrum, DirectionalSpectrum)
         if directional:
-            self._require_course()
+            self._require_own_directions()
         step = section.direction_step_deg
         return RandomSeaway(
             spectrum,
@@ -129,6 +136,16 @@ class SeawayBuilder:
             taper=section.taper or 0.0,
             ship_heading=self._course,
         )
+
+    def _require_own_directions(self) -> None:
+        """Refuse a heading beside directions that the sea brings itself, and a course that is not known."""
+        if self._heading is not None or self._section.spreading is not None:
+            raise PanelsimError(
+                "This sea brings its own directions",
+                got="a heading or a spreading beside them",
+                remedy="leave out wave_heading_deg, sea_direction_deg and spreading",
+            )
+        self._require_course()
 
     def _require_course(self) -> None:
         """Refuse compass directions for a ship whose course is not known."""

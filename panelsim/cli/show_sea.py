@@ -6,7 +6,7 @@ import numpy as np
 from rich.table import Table
 
 from panelsim.case import Case
-from panelsim.cli.show import out, say
+from panelsim.cli.show import out, say, show_rows
 from panelsim.seaway.random import RandomSeaway
 from panelsim.seaway.recorded import RecordedSeaway
 from panelsim.seaway.repeat import repeat_time, variance_scatter
@@ -40,6 +40,9 @@ ROWS = (
 def show_sea(case: Case) -> None:
     """The parameters of the sea, target and realised, and what to know of its components."""
     seaway, gravity = case.seaway, case.ship.gravity
+    if seaway.components.count == 1:
+        _show_wave(case)
+        return
     realised = component_characteristics(seaway.components, gravity)
     target = None
     if isinstance(seaway, RandomSeaway):
@@ -58,6 +61,25 @@ def show_sea(case: Case) -> None:
     say(f"* of waves up to the highest frequency of the components, {realised.upper_frequency:.4g} rad/s")
     for sentence in _sentences(case):
         say(sentence)
+
+
+def _show_wave(case: Case) -> None:
+    """One wave has a height and a period; heights of Rayleigh's distribution would say nothing of it."""
+    waves, gravity = case.seaway.components, case.ship.gravity
+    amplitude, omega = float(waves.amplitude[0]), float(waves.frequency[0])
+    length = 2 * np.pi / float(waves.wavenumber(gravity)[0])
+    encounter = float(waves.encounter_frequency(case.speed, gravity)[0])
+    met = f"{2 * np.pi / abs(encounter):.4g} s" if encounter else "never: the ship keeps up with it"
+    rows = {
+        "theory": "Stokes, second order" if waves.second_order else "linear",
+        "wave height": f"{2 * amplitude:.4g} m, steepness H/λ {2 * amplitude / length:.4g}",
+        "wave period": f"{2 * np.pi / omega:.4g} s, frequency {omega:.4g} rad/s",
+        "wave length": f"{length:.4g} m",
+        "encounter period": met + (", overtaken by the ship" if encounter < 0 else ""),
+        "wave heading": f"{np.rad2deg(waves.wave_heading[0]) % 360.0:.4g} deg, 0 following, 180 head",
+        "phase": f"{np.rad2deg(waves.phase[0]):.4g} deg, lead of the crest at the origin",
+    }
+    show_rows(f"{case.name}: {_title(case)}", rows)
 
 
 def _title(case: Case) -> str:
@@ -115,4 +137,7 @@ def _sentences(case: Case) -> Iterator[str]:
     yield f"At {run.speed_knots:g} knots the ship meets nearly the same waves again {when}."
     if isinstance(seaway, RandomSeaway):
         scatter = 50 * variance_scatter(waves, case.speed, run.duration, gravity=case.ship.gravity)
-        yield f"From seed to seed, the RMS of the waves over {run.duration:g} s scatters by {scatter:.2g} %."
+        yield (
+            f"With other phases the RMS of the waves over {run.duration:g} s would differ by {scatter:.2g} %"
+            " (one standard deviation)."
+        )

@@ -120,10 +120,11 @@ class RandomSeaway(Seaway):
         """Variance (N, D) [m²] of each component, before any is dropped."""
         bands = self._draw[1]
         if self.directional_spectrum is None:
-            return self.point_spectrum.density(bands.frequency) * bands.interval
+            return np.sum(self.point_spectrum.density(bands.node) * bands.weight, axis=-1)
         directions = self.directional_spectrum.grid_directions(self.direction_step)
-        density = self.directional_spectrum.density(bands.frequency, directions)
-        return density * bands.interval * self.directional_spectrum.grid_intervals(self.direction_step)
+        density = self.directional_spectrum.density(bands.node, directions[:, None])
+        over_frequency = np.sum(density * bands.weight, axis=-1)
+        return over_frequency * self.directional_spectrum.grid_intervals(self.direction_step)
 
     @cached_property
     def _all_components(self) -> WaveComponents:
@@ -184,8 +185,8 @@ class RandomSeaway(Seaway):
         """What to say of a sea that carries another energy than its spectrum: which grid is too coarse."""
         bands = self._draw[1]
         allowed = f"within {100 * missing:.1f} % of all of it (minimum_energy)"
-        density = self.point_spectrum.density(bands.frequency)
-        alone = np.sum(density * bands.interval, axis=0).mean() / self.point_spectrum.moment(0)
+        energy = np.sum(self.point_spectrum.density(bands.node) * bands.weight, axis=(0, 2))
+        alone = energy.mean() / self.point_spectrum.moment(0)
         if abs(alone - 1.0) <= missing:
             return PanelsimError(
                 "The wave components do not carry the spectrum's energy: their directions are too far apart",

@@ -53,6 +53,12 @@ class SpreadSpectrum(DirectionalSpectrum):
         They begin on the left of the mean direction; cos² over ±90° by 20° gives −80° to 80° about it.
         """
         step = checked_step(step)
+        if step > 0.5 * self.spreading.half_width * (1 + 1e-9):
+            raise PanelsimError(
+                "The direction step is too coarse for the spreading: one direction would stand for all",
+                got=f"{np.rad2deg(step):.4g}° in ±{np.rad2deg(self.spreading.half_width):.4g}°",
+                allowed=f"at most {np.rad2deg(0.5 * self.spreading.half_width):.4g}°",
+            )
         # G is zero at the ends of its support.
         last = np.ceil(self.spreading.half_width / step - 1e-9) - 1
         return np.remainder(self.sea_direction + step * np.arange(-last, last + 1), 2 * np.pi)

@@ -62,7 +62,9 @@ class Jonswap(PointSpectrum):
         """The sea of a wind [m/s] at 10 m above the sea after a fetch [m], Hasselmann et al. (1973), γ = 3.3.
 
         The tail is α g² ω⁻⁵ with α = 0.076 (U²/(F g))^0.22, SIMULATORS (8), printed with 0.0076;
-        ω_p = 22 (g²/(U F))^⅓, from which 2π · 3.5 (g/U) (g F/U²)^−0.33 is 3 % apart at g F/U² = 10⁴.
+        ω_p = 22 (g²/(U F))^⅓, from which 2π · 3.5 (g/U) (g F/U²)^−0.33 is 3 % apart at g F/U² = 10⁴. H_s is
+        that of the spectrum; Hasselmann's own fit of the energy, 1.6e-7 g F/U², gives a lower one (3.43 m for
+        4.51 m at 15 m/s and 200 km).
 
         Raises PanelsimError where the sea would be more than fully developed.
         """
