@@ -17,14 +17,11 @@ SALT_WATER_DENSITY = 1025.0  # kg/m3
 FRESH_WATER_DENSITY = 1000.0  # kg/m3
 KNOT = 1852.0 / 3600.0  # m/s
 
-# The two ways to split a quadrilateral into triangles. Every surface integral takes the mean of both, each
-# triangle counting one half, so that no diagonal is preferred and an upright symmetric hull feels no
-# roll or yaw from its own panelling.
-QUAD_SPLITS = np.array([[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]])
-SPLIT_WEIGHT = 0.5
-
 # How the wave pressure reaches up to the instantaneous surface: Wheeler's stretching, or not at all.
 STRETCHINGS = ("wheeler", "none")
+
+# Where the pressure of a panel is taken: at its corners, or at its centre as well.
+RULES = ("vertex", "vertex+centre")
 
 
 class Dof(IntEnum):
@@ -39,6 +36,31 @@ class Dof(IntEnum):
 
 
 DOF_NAMES = tuple(dof.name.lower() for dof in Dof)
+
+
+def corner_shares(panels: NDArray[np.integer]) -> FloatArray:
+    """Share (N, 4) of each corner in the mean of a panel; a repeated third vertex shares with itself."""
+    triangle = (panels[:, 2] == panels[:, 3])[:, None]
+    return np.where(triangle, np.array([2.0, 2.0, 1.0, 1.0]) / 6.0, 0.25)
+
+
+def panel_centres(vertices: FloatArray, panels: NDArray[np.integer]) -> FloatArray:
+    """Centre (N, 3) of each panel (N, 4), the mean of its corners; `vertices` (V, 3) in any axes."""
+    centres: FloatArray = np.einsum("nc,ncx->nx", corner_shares(panels), vertices[panels])
+    return centres
+
+
+def panel_triangles(vertices: FloatArray, panels: NDArray[np.integer]) -> FloatArray:
+    """The surface that the panels (N, 4) stand for: four triangles about the centre of each, (N, 4, 3, 3).
+
+    Corners are centre, vertex, next vertex. Every surface integral of panelsim is one over these
+    triangles: no diagonal of a quadrilateral is preferred, so an upright symmetric hull feels no roll or
+    yaw from its own panelling. A panel that repeats its third vertex has one triangle without area.
+    `vertices` (V, 3) in any axes.
+    """
+    corners = vertices[panels]
+    centres = np.broadcast_to(panel_centres(vertices, panels)[:, None], corners.shape)
+    return np.stack([centres, corners, np.roll(corners, -1, axis=1)], axis=2)
 
 
 def rotation_to_earth(roll: float, pitch: float, yaw: float) -> FloatArray:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from panelsim.conventions import FloatArray, IntArray
+from panelsim.conventions import FloatArray, IntArray, panel_triangles
 from panelsim.errors import PanelsimError
 from panelsim.hull.form import HullForm, bundled_hull_names, load_hull
 from panelsim.hull.panel_mesh import PanelMesh
@@ -40,8 +40,8 @@ def measure(form: HullForm, mesh: PanelMesh) -> Measured:
     wet = depth_at_rest(form, mesh)[mesh.panels].min(axis=1) > -1e-9 * form.draft
     # With z measured from the water plane that plane adds nothing to the volume.
     sunk = mesh.vertices * [1.0, 1.0, 0.0] - np.outer(depth_at_rest(form, mesh), [0.0, 0.0, 1.0])
-    a, b, c = np.moveaxis(sunk[mesh.split_triangles[np.repeat(wet, 4)]], 1, 0)
-    element = np.einsum("ij,ij->i", a, np.cross(b, c)) / 12.0
+    a, b, c = np.moveaxis(panel_triangles(sunk, mesh.panels[wet]).reshape(-1, 3, 3), 1, 0)
+    element = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
     volume = element.sum()
     center = form.draft + np.sum(element * (a + b + c)[:, 2] / 4.0) / volume
     edges = directed_edges(mesh.panels[wet])
@@ -68,7 +68,7 @@ def test_mesh_is_closed_outward_mirrored_and_cut_at_the_water(name: str, refinem
     assert set(edges.values()) == {1}
     assert all(edge[::-1] in edges for edge in edges)
     assert len(np.unique(mesh.panels)) == len(mesh.vertices)
-    a, b, c = np.moveaxis(mesh.vertices[mesh.split_triangles], 1, 0)
+    a, b, c = np.moveaxis(mesh.triangles.reshape(-1, 3, 3), 1, 0)
     assert np.einsum("ij,ij->", a, np.cross(b, c)) > 0.0
     depth = depth_at_rest(form, mesh)[mesh.panels]
     assert np.all((depth.min(axis=1) > -1e-12) | (depth.max(axis=1) < 1e-12))
@@ -180,8 +180,8 @@ def test_other_drafts_and_trims_are_cut_on_their_own_waterline(name: str, draft:
     x, _, z = mesh.vertices.T
     depth = (draft - x * trim / form.length_pp - z)[mesh.panels]
     assert np.all((depth.min(axis=1) > -1e-12) | (depth.max(axis=1) < 1e-12))
-    whole = mesh.vertices[mesh.split_triangles]
-    volume = np.einsum("ij,ij->", whole[:, 0], np.cross(whole[:, 1], whole[:, 2])) / 12.0
+    whole = mesh.triangles.reshape(-1, 3, 3)
+    volume = np.einsum("ij,ij->", whole[:, 0], np.cross(whole[:, 1], whole[:, 2])) / 6.0
     # The closed hull is the same whatever the water, but for chords.
     assert volume == pytest.approx({"frigate": 12255.0, "s175": 44900.0}[name], rel=0.003)
 

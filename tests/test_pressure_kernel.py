@@ -7,14 +7,17 @@ import sys
 import numpy as np
 import pytest
 
-from panelsim.conventions import STRETCHINGS
+from panelsim.conventions import RULES, STRETCHINGS, panel_triangles, rotation_to_earth
 from panelsim.errors import PanelsimError
+from panelsim.hull.immersed import immersed_part
+from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.kernels import oracle
 from panelsim.kernels.pressure import wetted_surface_load
 from panelsim.kernels.tables import PanelTables, WaveTables, panel_tables, wave_tables
 from panelsim.ship.bundled import load_ship
 
 WATER = {"water_density": 1025.0, "gravity": 9.80665}
+HEADS = {"waterline": 0.0, "water_density": 1.0, "gravity": 1.0}  # ρ g = 1: loads are heads times areas
 # Both sum the same few thousand terms in another order; the polynomials are exact to 1e-15.
 AGREEMENT = 1e-12
 
@@ -118,8 +121,8 @@ SEAS = {
 
 def worst_difference(load: np.ndarray, reference: np.ndarray, panels: PanelTables) -> float:
     """Largest difference of force and moment, over the weight of water in the hull and its length."""
-    hull = panels.points[panels.split_triangles]
-    volume = np.einsum("tx,tx->", hull[:, 0], np.cross(hull[:, 1], hull[:, 2])) / 12
+    hull = panel_triangles(panels.points, panels.panels).reshape(-1, 3, 3)
+    volume = np.einsum("tx,tx->", hull[:, 0], np.cross(hull[:, 1], hull[:, 2])) / 6
     weight = WATER["water_density"] * WATER["gravity"] * volume
     scale = np.array([weight] * 3 + [weight * np.ptp(hull[..., 0])] * 3)
     return float(np.abs((load - reference) / scale).max())
@@ -127,25 +130,29 @@ def worst_difference(load: np.ndarray, reference: np.ndarray, panels: PanelTable
 
 @pytest.mark.parametrize("waves", SEAS)
 @pytest.mark.parametrize("stretching", STRETCHINGS)
+@pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("hull", HULLS)
-def test_kernel_agrees_with_its_twin_at_any_attitude(hull: str, stretching: str, waves: str) -> None:
+def test_kernel_agrees_with_its_twin_at_any_attitude(
+    hull: str, rule: str, stretching: str, waves: str
+) -> None:
     panels, sea = HULLS[hull](), SEAS[waves]
-    given = {"waterline": -1.5, "stretching": stretching, **WATER}
+    given = {"waterline": -1.5, "stretching": stretching, "rule": rule, **WATER}
     load = wetted_surface_load(panels, sea, POSES, **given)
     reference = oracle.wetted_surface_load(panels, sea, POSES, **given)
     assert np.isfinite(load).all()
     worst = worst_difference(load, reference, panels)
-    print(f"{hull}, {stretching}, {waves}: worst difference {worst:.1e}")
+    print(f"{hull}, {rule}, {stretching}, {waves}: worst difference {worst:.1e}")
     assert worst < AGREEMENT
     np.testing.assert_array_equal(load[-1], 0.0)  # out of the water
 
 
+@pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("stretching", STRETCHINGS)
-def test_vertices_exactly_on_the_surface_count_as_dry_and_do_no_harm(stretching: str) -> None:
+def test_vertices_exactly_on_the_surface_count_as_dry_and_do_no_harm(stretching: str, rule: str) -> None:
     """The bottom, then the deck of the box exactly at the calm surface, then the surface half way."""
     poses = np.zeros((3, 8))
     poses[:, 4] = [3.0, -3.0, 0.0]
-    panels, given = box(), {"waterline": 0.0, "stretching": stretching, **WATER}
+    panels, given = box(), {"waterline": 0.0, "stretching": stretching, "rule": rule, **WATER}
     load = wetted_surface_load(panels, sea(0), poses, **given)
     weight = WATER["water_density"] * WATER["gravity"] * 20 * 10 * np.array([0.0, 6.0, 3.0])
     # Vertical sides, so that the clip is exact.
@@ -161,16 +168,108 @@ def test_every_pattern_of_wet_and_dry_corners_of_one_panel() -> None:
     for heights in itertools.product([-1.0, 0.0, 0.7], repeat=4):
         corners = np.column_stack([[0, 2, 2.2, 0], [0, 0.1, 1.5, 1], heights])
         panels, pose = panel_tables(corners, np.array([[0, 1, 2, 3]])), np.zeros((1, 8))
-        for stretching in STRETCHINGS:
-            given = {"waterline": 0.0, "water_density": 1.0, "gravity": 1.0, "stretching": stretching}
+        for stretching, rule in itertools.product(STRETCHINGS, RULES):
+            given = {"stretching": stretching, "rule": rule, **HEADS}
             load = wetted_surface_load(panels, sea(0), pose, **given)
             reference = oracle.wetted_surface_load(panels, sea(0), pose, **given)
             np.testing.assert_allclose(load, reference, atol=1e-14)
 
 
+RIPPLE = wave_tables(0.3, 2 * np.pi / 4.0, 0.0, 1.0, 0.0)  # a crest at the origin, 4 m long
+
+
+@pytest.mark.parametrize("stretching", STRETCHINGS)
+@pytest.mark.parametrize(("phase", "alone"), [(0.0, "wet"), (np.pi, "dry")])
+def test_a_centre_that_is_alone_wet_or_alone_dry_is_found(phase: float, alone: str, stretching: str) -> None:
+    """A level plate of 2 x 2 m that looks down, under or over a crest or trough at its middle."""
+    corners = np.array([[-1, -1, 0], [-1, 1, 0], [1, 1, 0], [1, -1, 0]], dtype=float)
+    panels, pose = panel_tables(corners, np.array([[0, 1, 2, 3]])), np.zeros((1, 8))
+    pose[0, :2] = phase, 1.0
+    pose[0, 4] = 0.1 if alone == "wet" else -0.1  # ζ is 0 at the corners, ±0.3 m at the centre
+    given = {"stretching": stretching, **HEADS}
+    lift = {rule: wetted_surface_load(panels, RIPPLE, pose, rule=rule, **given)[0, 2] for rule in RULES}
+    exact = oracle.subdivided_load(panels, RIPPLE, pose, levels=6, **given)[0, 2]
+    print(f"{alone}, {stretching}: {lift}, exact {exact:.3f}")
+    assert lift["vertex"] == pytest.approx(0.0 if alone == "wet" else 0.4, abs=0.08)
+    # The pressure is far from quadratic over half a wave: only the side it errs to is certain.
+    assert abs(lift["vertex+centre"] - exact) < 0.6 * abs(lift["vertex"] - exact)
+    for rule in RULES:
+        reference = oracle.wetted_surface_load(panels, RIPPLE, pose, rule=rule, **given)
+        assert lift[rule] == pytest.approx(reference[0, 2], abs=1e-14)
+
+
+def test_a_centre_wet_by_the_second_order_of_a_crest_is_found() -> None:
+    """A plank along a Stokes wave, its ends 0.08 m above the water: the first order alone leaves it dry."""
+    k, amplitude = 2 * np.pi / 12.0, 0.5
+    crest = wave_tables(amplitude, k, 0.0, 1.0, 0.0, second_order=True)
+    ends = amplitude * np.cos(k) + 0.5 * amplitude**2 * k * np.cos(2 * k)
+    corners = np.array([[-1, -0.01, 0], [-1, 0.01, 0], [1, 0.01, 0], [1, -0.01, 0]])
+    panels, pose = panel_tables(corners, np.array([[0, 1, 2, 3]])), np.zeros((1, 8))
+    pose[0, 1], pose[0, 4] = 1.0, ends + 0.08
+    assert amplitude * (1 - np.cos(k)) < 0.08
+    load = wetted_surface_load(panels, crest, pose, **HEADS)
+    assert abs(load[0, 2]) > 1e-5  # negative: Wheeler with Stokes has less than no pressure at a crest
+    np.testing.assert_allclose(load, oracle.wetted_surface_load(panels, crest, pose, **HEADS), atol=1e-14)
+
+
+@pytest.mark.parametrize("stretching", STRETCHINGS)
+def test_panels_skipped_as_surely_dry_are_dry(stretching: str) -> None:
+    """Steep short waves, with only the crests in reach of the panels: nothing wet is left out."""
+    corners = np.array([[x, y, 0.0] for x in np.arange(-6, 7, 1.0) for y in (-0.5, 0.5)])
+    index = np.arange(0, len(corners) - 2, 2)
+    panels = panel_tables(corners, np.stack([index, index + 1, index + 3, index + 2], axis=1))
+    steep = wave_tables([0.2, 0.15], [3.1, 2.3], [0.0, 0.5], [1.0, 1.3], [0.0, 0.0])
+    poses = np.zeros((200, 8))
+    poses[:, 0], poses[:, 1] = np.linspace(0, 20, 200), 1.0
+    poses[:, 4] = np.linspace(-0.1, 0.4, 200)
+    given = {"stretching": stretching, **HEADS}
+    load = wetted_surface_load(panels, steep, poses, **given)
+    reference = oracle.wetted_surface_load(panels, steep, poses, **given)
+    assert (reference[:, 2] > 0).sum() > 100 and (reference[:, 2] == 0).any()
+    np.testing.assert_allclose(load, reference, atol=1e-13)
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_calm_water_lifts_the_surface_of_four_triangles_about_the_centre(rule: str) -> None:
+    """A twisted panel, wet, cut and cut again: the load of the fan, which neither split has."""
+    corners = np.column_stack([[0, 2, 2.2, 0], [0, 0.1, 1.5, 1], [-1.0, -0.1, -1.4, 0.5]])
+    fan = panel_triangles(corners, np.array([[0, 1, 2, 3]]))[0].reshape(-1, 3)
+    as_fan = panel_tables(fan, np.arange(12).reshape(4, 3)[:, [0, 1, 2, 2]])
+    split = panel_tables(corners, np.array([[0, 1, 2, 2], [0, 2, 3, 3]]))
+    one, poses = panel_tables(corners, np.array([[0, 1, 2, 3]])), np.zeros((4, 8))
+    poses[:, 4], poses[:, 5] = [-3.0, 0.0, 0.4, 0.9], [0.0, 0.1, -0.2, 0.0]
+    load, expected, other = (
+        wetted_surface_load(surface, sea(0), poses, rule=rule, **HEADS) for surface in (one, as_fan, split)
+    )
+    np.testing.assert_allclose(load, expected, atol=1e-14)
+    assert (np.abs(load - other).max(axis=1) > 0.01).all()
+
+
+def test_calm_water_load_is_that_of_the_independent_hydrostatics() -> None:
+    """Halifax at rest, heeled, trimmed, with her deck under water: weight of the volume at its centroid."""
+    loaded = load_ship("halifax", 10.0)
+    panels = panel_tables(loaded.vertices, loaded.mesh.panels)
+    mesh = PanelMesh(loaded.vertices, loaded.mesh.panels)
+    for roll, pitch, heave in ((0, 0, 0), (25, 2, 0.3), (-40, -2, -0.5), (10, 3, -7), (3, -7, 0.5)):
+        pose = np.array([[0.0, 1.0, 0, 0, heave, roll * DEG, pitch * DEG, 0.0]])
+        part = immersed_part(mesh, heel=roll * DEG, trim=pitch * DEG, waterline=loaded.waterline - heave)
+        up = rotation_to_earth(roll * DEG, pitch * DEG, 0.0).T @ [0.0, 0.0, 1.0]
+        centroid = rotation_to_earth(roll * DEG, pitch * DEG, 0.0).T @ part.volume_moment
+        weight = WATER["water_density"] * WATER["gravity"]
+        expected = weight * np.concatenate([part.volume * up, np.cross(centroid, up)])
+        for rule in RULES:
+            load = wetted_surface_load(panels, sea(0), pose, waterline=loaded.waterline, rule=rule, **WATER)[
+                0
+            ]
+            assert np.abs(load - expected)[:3].max() < 1e-10 * weight * part.volume
+            # Arms of half the length of the ship.
+            assert np.abs(load - expected)[3:].max() < 1e-10 * weight * part.volume * 60.0
+
+
+@pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("waves", ["19 waves", "Stokes wave"])
-def test_same_input_same_bits_alone_or_in_a_batch(waves: str) -> None:
-    panels, sea, given = ship(), SEAS[waves], {"waterline": -1.5, **WATER}
+def test_same_input_same_bits_alone_or_in_a_batch(waves: str, rule: str) -> None:
+    panels, sea, given = ship(), SEAS[waves], {"waterline": -1.5, "rule": rule, **WATER}
     together = wetted_surface_load(panels, sea, POSES, **given)
     again = wetted_surface_load(panels, sea, POSES, **given)
     alone = np.concatenate([wetted_surface_load(panels, sea, pose[None], **given) for pose in POSES])
@@ -186,16 +285,19 @@ def test_other_meshes_and_seas_do_not_compile_the_kernel_again() -> None:
     for waves in (sea(1), stokes_wave()):
         wetted_surface_load(box(), waves, POSES, **given)
     compiled = impl.get_runtime().get_num_compiled_functions()
-    for stretching in STRETCHINGS:
+    for stretching, rule in itertools.product(STRETCHINGS, RULES):
         for waves in (sea(37), stokes_wave()):
-            wetted_surface_load(ship(), waves, POSES[:2], stretching=stretching, **given)
+            wetted_surface_load(ship(), waves, POSES[:2], stretching=stretching, rule=rule, **given)
     assert impl.get_runtime().get_num_compiled_functions() == compiled
 
 
+@pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("stretching", STRETCHINGS)
-def test_one_small_panel_of_a_stokes_wave_agrees_with_the_twin_in_every_pattern(stretching: str) -> None:
+def test_one_small_panel_of_a_stokes_wave_agrees_with_the_twin_in_every_pattern(
+    stretching: str, rule: str
+) -> None:
     """The cut, with nothing around it to hide it; corners up to 1 m above and below the surface."""
-    given = {"waterline": 0.0, "water_density": 1.0, "gravity": 1.0, "stretching": stretching}
+    given = {"stretching": stretching, "rule": rule, **HEADS}
     for heights in itertools.product([-1.0, -0.3, 0.7], repeat=4):
         corners = np.column_stack([[0, 2, 2.2, 0], [0, 0.1, 1.5, 1], heights])
         panels, poses = panel_tables(corners, np.array([[0, 1, 2, 3]])), np.zeros((3, 8))
@@ -214,7 +316,7 @@ def test_deep_water_waves_of_any_length_stay_finite() -> None:
     np.testing.assert_array_equal(load, wetted_surface_load(ship(), sea(0), pose, **given))
 
 
-def test_bad_poses_and_stretchings_are_refused() -> None:
+def test_bad_poses_stretchings_and_rules_are_refused() -> None:
     panels, waves, given = box(), sea(1), {"waterline": 0.0, **WATER}
     with pytest.raises(PanelsimError, match=r"\(8,\)"):
         wetted_surface_load(panels, waves, POSES[0], **given)
@@ -224,6 +326,9 @@ def test_bad_poses_and_stretchings_are_refused() -> None:
         wetted_surface_load(panels, waves, diverged, **given)
     with pytest.raises(PanelsimError, match="airy"):
         wetted_surface_load(panels, waves, POSES, stretching="airy", **given)
+    for load in (wetted_surface_load, oracle.wetted_surface_load):
+        with pytest.raises(PanelsimError, match=r"simpson[\s\S]*vertex\+centre"):
+            load(panels, waves, POSES, rule="simpson", **given)
 
 
 def in_a_fresh_process(script: str) -> str:

@@ -10,8 +10,7 @@ from panelsim.hull.refine import subdivided
 
 
 def volume(mesh: PanelMesh) -> float:
-    corners = mesh.vertices[mesh.split_triangles]
-    return float(np.linalg.det(corners).sum() / 12)
+    return float(np.linalg.det(mesh.triangles).sum() / 6)
 
 
 def as_triangles(mesh: PanelMesh) -> PanelMesh:

@@ -19,10 +19,9 @@ WIGLEY = {
 
 def immersed_volume(mesh: PanelMesh, draft: float) -> float:
     """Divergence theorem about a point of the water plane, which needs no lid: wet panels only."""
-    corners = (mesh.vertices - [0.0, 0.0, draft])[mesh.split_triangles]
-    wet = np.repeat(mesh.centroid[:, 2] < draft, 4)
-    a, b, c = np.moveaxis(corners[wet], 1, 0)
-    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 12.0)
+    wet = mesh.centroid[:, 2] < draft
+    a, b, c = np.moveaxis(mesh.triangles[wet].reshape(-1, 3, 3) - [0.0, 0.0, draft], 1, 0)
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
 
 
 def wigley_volume(beam: float, a: float) -> float:

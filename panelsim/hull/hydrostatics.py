@@ -120,7 +120,7 @@ def hydrostatics(
     water_density: float = SALT_WATER_DENSITY,
     gravity: float = STANDARD_GRAVITY,
 ) -> Hydrostatics:
-    """Integrate exactly over the immersed part of a mesh, a panel being the mean of its two splits.
+    """Integrate exactly over the immersed part of a mesh, a panel being four triangles about its centre.
 
     The hull is turned by rotation_to_earth(heel, trim, 0) [rad], starboard and bow down positive, and the
     water plane passes through the point (0, 0, draft) of the hull [m]. center_of_gravity (3,) is in hull

@@ -4,33 +4,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from panelsim.conventions import SPLIT_WEIGHT, FloatArray, IntArray, rotation_to_earth
+from panelsim.conventions import FloatArray, IntArray, panel_triangles, rotation_to_earth
 from panelsim.hull.panel_mesh import PanelMesh
 
 ON_PLANE = 1e-9  # a vertex this part of the hull's size off the plane lies on it, for counts and extents
 
 
-def immersed_triangles(
-    vertices: FloatArray, triangles: IntArray, weights: FloatArray, waterline: float
-) -> tuple[FloatArray, FloatArray]:
-    """Cut triangles exactly at z = waterline and keep what lies below.
+def immersed_triangles(corners: FloatArray, waterline: float) -> tuple[FloatArray, IntArray]:
+    """Cut triangles (T, 3, 3) exactly at z = waterline and keep what lies below.
 
-    vertices (V, 3) [m] in axes with z up; triangles (T, 3) vertex indices; weights (T,), the share each
-    triangle has in the surface. Returns corners (W, 3, 3) in the sense of the originals, and weights (W,).
-    A vertex on the plane counts as neither wet nor dry: a triangle that only touches the plane from above
-    is left out, one that only touches it from below is kept whole.
+    Corners [m] in axes with z up. Returns the corners (W, 3, 3) of what is left, in the sense of the
+    originals, and whose piece each is (W,). A vertex on the plane counts as neither wet nor dry: a triangle
+    that only touches the plane from above is left out, one that only touches it from below is kept whole.
     """
-    corners = vertices[triangles]
     submergence = waterline - corners[..., 2]
     some_wet = (submergence > 0.0).any(axis=1)
     some_dry = (submergence < 0.0).any(axis=1)
-    whole = some_wet & ~some_dry
-    cut = some_wet & some_dry
+    whole = np.flatnonzero(some_wet & ~some_dry)
+    cut = np.flatnonzero(some_wet & some_dry)
     pieces, origin = _wet_pieces(corners[cut], submergence[cut], waterline)
-    return (
-        np.concatenate([corners[whole], pieces]),
-        np.concatenate([weights[whole], weights[cut][origin]]),
-    )
+    return np.concatenate([corners[whole], pieces]), np.concatenate([whole, cut[origin]])
 
 
 def _wet_pieces(
@@ -91,14 +84,13 @@ def immersed_part(mesh: PanelMesh, *, heel: float, trim: float, waterline: float
     integrands are quadratic at most, so the mean over the three edge midpoints of a triangle is exact.
     """
     vertices = level_vertices(mesh, heel, trim)
-    triangles = mesh.split_triangles
-    weights = np.full(len(triangles), SPLIT_WEIGHT)
-    corners, weights = immersed_triangles(vertices, triangles, weights, waterline)
+    triangles = panel_triangles(vertices, mesh.panels).reshape(-1, 3, 3)
+    corners, _ = immersed_triangles(triangles, waterline)
 
     area_vector = 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     x, y, z = np.moveaxis(0.5 * (corners + np.roll(corners, -1, axis=1)), -1, 0)
     z = z - waterline
-    flux = (weights * area_vector[:, 2] / 3.0)[:, None]
+    flux = (area_vector[:, 2] / 3.0)[:, None]
 
     volume = float(np.sum(z * flux))
     moment_z = float(np.sum(0.5 * z * z * flux)) + waterline * volume
@@ -115,7 +107,7 @@ def immersed_part(mesh: PanelMesh, *, heel: float, trim: float, waterline: float
         waterplane_second_moment=np.array(
             [[-np.sum(x * x * flux), second_xy], [second_xy, -np.sum(y * y * flux)]]
         ),
-        wetted_surface=float(np.sum(weights * np.linalg.norm(area_vector, axis=1))),
+        wetted_surface=float(np.sum(np.linalg.norm(area_vector, axis=1))),
         waterline_length=float(extent[0]),
         waterline_beam=float(extent[1]),
         panels_wet=int(np.sum(deepest > tolerance)),

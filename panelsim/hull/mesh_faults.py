@@ -77,10 +77,10 @@ def connected_parts(mesh: PanelMesh) -> tuple[int, IntArray]:
 
 
 def volume_shares(mesh: PanelMesh, origin: FloatArray) -> FloatArray:
-    """What each panel (N,) adds to the volume inside the surface [m3]: the mean of its two splits."""
-    a, b, c = np.moveaxis(mesh.vertices[mesh.split_triangles] - origin, 1, 0)
-    shares = np.einsum("tx,tx->t", a, np.cross(b, c)) / 6.0
-    return 0.5 * shares.reshape(-1, 4).sum(axis=1)
+    """What each panel (N,) adds to the volume inside the surface [m3]."""
+    a, b, c = np.moveaxis(mesh.triangles - origin, 2, 0)
+    shares: FloatArray = np.einsum("ntx,ntx->n", a, np.cross(b, c)) / 6.0
+    return shares
 
 
 def inside_out_parts(mesh: PanelMesh, component_count: int, component: IntArray) -> list[str]:
@@ -125,8 +125,8 @@ def shape_warnings(mesh: PanelMesh, degenerate: IntArray) -> list[str]:
     twist = corners[:, 0] - corners[:, 1] + corners[:, 2] - corners[:, 3]
     quadrilateral = mesh.panels[:, 2] != mesh.panels[:, 3]
     warp = np.abs(np.einsum("nx,nx->n", twist, normal)) / (4.0 * np.where(sound, longest, 1.0))
-    a, b, c = np.moveaxis(mesh.vertices[mesh.split_triangles], 1, 0)
-    facing = np.einsum("ntx,nx->nt", np.cross(b - a, c - a).reshape(-1, 4, 3), normal)
+    onward, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
+    facing = np.einsum("ncx,nx->nc", np.cross(onward, back), normal)
     folded = facing.min(axis=1) < -ZERO_AREA * area
     aspect_text = f"panels are slivers (longest edge squared over {LARGEST_ASPECT:g} times the area)"
     return [

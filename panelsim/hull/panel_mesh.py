@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from panelsim.conventions import QUAD_SPLITS, FloatArray, IntArray
+from panelsim.conventions import FloatArray, IntArray, panel_triangles
 
 
 @dataclass(frozen=True)
@@ -51,16 +51,16 @@ class PanelMesh:
 
     @cached_property
     def centroid(self) -> FloatArray:
-        """Panel centroids (N, 3) [m], the area mean over both splits of the quadrilateral."""
-        corners = self.vertices[self.split_triangles].reshape(self.panel_count, 4, 3, 3)
+        """Panel centroids (N, 3) [m], the area mean over the triangles of the panel."""
+        corners = self.triangles
         edges = corners[:, :, 1:] - corners[:, :, :1]
         areas = np.linalg.norm(np.cross(edges[:, :, 0], edges[:, :, 1]), axis=-1)
         return np.einsum("nt,ntx->nx", areas, corners.mean(axis=2)) / areas.sum(axis=1)[:, None]
 
     @cached_property
-    def split_triangles(self) -> IntArray:
-        """Vertex indices (4 N, 3) of both splits of every panel; each counts with weight one half."""
-        return self.panels[:, QUAD_SPLITS].reshape(-1, 3)
+    def triangles(self) -> FloatArray:
+        """The surface itself, four triangles (N, 4, 3, 3) [m] about the centre of each panel."""
+        return panel_triangles(self.vertices, self.panels)
 
     def export(self, path: str | Path) -> None:
         """Write the mesh to an STL, OBJ, PLY, GLB or GDF file; see panelsim.hull.export.write_mesh."""

@@ -1,16 +1,21 @@
 """The slow, obvious NumPy twin of the pressure kernel, and a brute-force reference above both."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from panelsim.conventions import QUAD_SPLITS, SPLIT_WEIGHT, FloatArray, rotation_to_earth
+from panelsim.conventions import FloatArray, IntArray, corner_shares, panel_triangles, rotation_to_earth
 from panelsim.kernels.tables import (
     PanelTables,
     WaveTables,
+    bend_shares,
     checked_poses,
+    require_rule,
     require_stretching,
 )
+
+SPLITS = np.array([[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]])  # of a quadrilateral, both ways
 
 
 @dataclass(frozen=True)
@@ -63,13 +68,21 @@ def wetted_surface_load(
     water_density: float,
     gravity: float,
     stretching: str = "wheeler",
+    rule: str = "vertex+centre",
 ) -> FloatArray:
-    """Force and moment (B, 6) of the wetted surface in ship axes: the kernel's rule, spelled out.
+    """Force and moment (B, 6) of the wetted surface in ship axes: the kernel's rules, spelled out.
 
     The arguments, units and errors are those of `panelsim.kernels.pressure.wetted_surface_load`.
     """
-    corners = panels.points[panels.split_triangles]
-    return _load_at_poses(corners, waves, poses, waterline, water_density * gravity, stretching)
+    require_stretching(stretching)
+    require_rule(rule)
+    loads = [
+        _load_of_panels(
+            panels, Surroundings(waves, pose, waterline, water_density * gravity, stretching), rule
+        )
+        for pose in checked_poses(poses)
+    ]
+    return np.array(loads).reshape(-1, 6)
 
 
 def subdivided_load(
@@ -83,60 +96,101 @@ def subdivided_load(
     stretching: str = "wheeler",
     levels: int,
 ) -> FloatArray:
-    """The same load with every triangle split into 4^levels parts and the exact pressure at each corner.
+    """The load with every triangle of a panel in 4^levels parts and the exact pressure at each corner.
 
-    What the rule tends to on flat facets as the panels shrink; arguments as `wetted_surface_load`.
+    What the rules tend to on flat facets as the panels shrink; arguments as `wetted_surface_load`.
     """
-    corners = panels.points[panels.split_triangles]
+    require_stretching(stretching)
+    corners = panel_triangles(panels.points, panels.panels).reshape(-1, 3, 3)
     for _ in range(levels):
         corners = _split_in_four(corners)
-    return _load_at_poses(corners, waves, poses, waterline, water_density * gravity, stretching)
-
-
-def _load_at_poses(
-    corners: FloatArray,
-    waves: WaveTables,
-    poses: FloatArray,
-    waterline: float,
-    weight_density: float,
-    stretching: str,
-) -> FloatArray:
-    require_stretching(stretching)
-    loads = [
-        _load(corners, Surroundings(waves, pose, waterline, weight_density, stretching))
-        for pose in checked_poses(poses)
-    ]
+    loads = []
+    for pose in checked_poses(poses):
+        water = Surroundings(waves, pose, waterline, water_density * gravity, stretching)
+        wet, pressure, weight, _ = _wet_triangles(corners, *water.at(corners))
+        loads.append(weight @ _loads(wet, pressure))
     return np.array(loads).reshape(-1, 6)
 
 
-def _load(corners: FloatArray, water: Surroundings) -> FloatArray:
-    """Load (6,) on half-weight triangles (T, 3, 3) in ship axes; the cut ones keep their wet pieces."""
-    submergence, pressure, to_cut = water.at(corners)
-    wet_corners = (submergence > 0.0).sum(axis=1)
-    whole = wet_corners == 3
-    load = _integrate(corners[whole], pressure[whole])
-    polygons = [
-        _wet_polygon(corners[t], submergence[t], pressure[t], to_cut[t])
-        for t in np.flatnonzero((wet_corners == 1) | (wet_corners == 2))
+def _load_of_panels(panels: PanelTables, water: Surroundings, rule: str) -> FloatArray:
+    """Load (6,) on panels as four triangles about their centres, each with a linear pressure."""
+    triangles = panel_triangles(panels.points, panels.panels)
+    shares = corner_shares(panels.panels)
+    at_corners = water.at(panels.points[panels.panels])
+    if rule == "vertex":
+        continued = _continued(at_corners, shares, water)
+        mean = np.einsum("nc,nc->n", shares, continued)
+        submergence, _, to_cut = (np.einsum("nc,nc->n", shares, values) for values in at_corners)
+        at_centre, bend = (submergence, mean, to_cut), np.zeros(len(mean))
+    else:
+        at_centre = water.at(triangles[:, 0, 0])
+        everywhere = [np.column_stack(pair) for pair in zip(at_corners, at_centre, strict=True)]
+        continued = _continued(everywhere, np.insert(shares, 4, 1.0, axis=1), water)
+        mean = np.einsum("nc,nc->n", shares, continued[:, :4])
+        bend = bend_shares(panels.panels) * (continued[:, 4] - mean)
+    on_triangles = [
+        np.stack([np.repeat(own[:, None], 4, axis=1), values, np.roll(values, -1, axis=1)], axis=-1)
+        for own, values in zip(at_centre, at_corners, strict=True)
     ]
-    if polygons:
-        points, pressures = (np.array(side)[:, QUAD_SPLITS] for side in zip(*polygons, strict=True))
-        load += SPLIT_WEIGHT * _integrate(points.reshape(-1, 3, 3), pressures.reshape(-1, 3))
-    return SPLIT_WEIGHT * load
+    wet, pressure, weight, origin = _wet_triangles(
+        triangles.reshape(-1, 3, 3), *(values.reshape(-1, 3) for values in on_triangles)
+    )
+    area_vector, arm = _area_vector(wet), triangles[origin // 4, 0, 0]
+    bent = -bend[origin // 4, None] * np.concatenate([area_vector, np.cross(arm, area_vector)], axis=1)
+    load: FloatArray = weight @ (_loads(wet, pressure) + bent)
+    return load
 
 
-def _integrate(corners: FloatArray, pressure: FloatArray) -> FloatArray:
-    """Load (6,) of a pressure that is linear on each triangle (T, 3, 3), given (T, 3) at the corners."""
-    x0, x1, x2 = corners[:, 0], corners[:, 1], corners[:, 2]
-    area_vector = 0.5 * np.cross(x1 - x0, x2 - x0)
-    mean = pressure.mean(axis=1)
+def _continued(at_points: Sequence[FloatArray], weight: FloatArray, water: Surroundings) -> FloatArray:
+    """Pressure (N, C) at the points of each panel, as if the water did not end at its surface.
+
+    With Wheeler a dry point has the pressure at the surface above it less ρ g times its height, and what the
+    wet points of its panel have besides, in proportion to the depth, means over the panel by `weight`
+    (N, C). Without, it has its own.
+    """
+    submergence, pressure, to_cut = at_points
+    if water.stretching == "none":
+        return pressure
+    depth = np.maximum(submergence, 0.0)
+    still = to_cut + water.weight_density * submergence
+    added = np.where(submergence > 0.0, pressure - still, 0.0)
+    total_added, total_depth = ((weight * part).sum(axis=1, keepdims=True) for part in (added, depth))
+    growth = np.divide(total_added, total_depth, out=np.zeros_like(total_depth), where=total_depth > 0.0)
+    return np.where(submergence > 0.0, pressure, still + growth * submergence)
+
+
+def _wet_triangles(
+    corners: FloatArray, submergence: FloatArray, pressure: FloatArray, to_cut: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, IntArray]:
+    """Wet part of triangles (T, 3, 3), in triangles: corners, pressures there, weight, whose part each is.
+
+    A wet quadrilateral is the mean of both its splits.
+    """
+    wet_corners = (submergence > 0.0).sum(axis=1)
+    whole = np.flatnonzero(wet_corners == 3)
+    cut = np.flatnonzero((wet_corners == 1) | (wet_corners == 2))
+    polygons = [_wet_polygon(corners[t], submergence[t], pressure[t], to_cut[t]) for t in cut]
+    points = np.array([polygon[0] for polygon in polygons]).reshape(-1, 4, 3)[:, SPLITS]
+    pressures = np.array([polygon[1] for polygon in polygons]).reshape(-1, 4)[:, SPLITS]
+    return (
+        np.concatenate([corners[whole], points.reshape(-1, 3, 3)]),
+        np.concatenate([pressure[whole], pressures.reshape(-1, 3)]),
+        np.concatenate([np.ones(len(whole)), np.full(4 * len(cut), 0.5)]),
+        np.concatenate([whole, np.repeat(cut, 4)]),
+    )
+
+
+def _area_vector(corners: FloatArray) -> FloatArray:
+    """Area times normal (T, 3) of triangles."""
+    return 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+
+
+def _loads(corners: FloatArray, pressure: FloatArray) -> FloatArray:
+    """Load (T, 6) of a pressure that is linear on each triangle (T, 3, 3), given (T, 3) at the corners."""
+    area_vector, total = _area_vector(corners), pressure.sum(axis=1)[:, None]
     # The mean of p x over a triangle, both linear: (Σ p x + Σ p Σ x) / 12.
-    moment_of_pressure = (
-        np.einsum("tc,tcx->tx", pressure, corners) + pressure.sum(axis=1)[:, None] * corners.sum(axis=1)
-    ) / 12.0
-    force = -(mean[:, None] * area_vector).sum(axis=0)
-    moment = -np.cross(moment_of_pressure, area_vector).sum(axis=0)
-    return np.concatenate([force, moment])
+    moment_of_pressure = (np.einsum("tc,tcx->tx", pressure, corners) + total * corners.sum(axis=1)) / 12.0
+    return -np.concatenate([total / 3.0 * area_vector, np.cross(moment_of_pressure, area_vector)], axis=1)
 
 
 def _wet_polygon(

@@ -1,10 +1,16 @@
 """What the pressure kernel reads: the hull surface as loaded points, the sea as components.
 
-For a pressure that is linear on each triangle the force and moment are linear in the pressures at
-the vertices, F = Σ p_v G_v. The response G of a vertex follows from the geometry alone and is
-built once; a quadrilateral takes the mean over both of its diagonal splits.
+A panel is four triangles about its centre, and a pressure is linear on each of them. Force and moment are
+then linear in the pressures at the points, F = Σ p_v G_v. The response G of a point follows from the
+geometry alone and is built once. Two rules say what the points are:
+
+"vertex": the corners of the panels; the centre has the mean of its corners.
+"vertex+centre": the centres too. What the centre has above the mean of its corners bends the pressure over
+the whole panel, so it acts at the centre on more area than the triangles give it: so much that the corners
+have 1/12 of a panel each and the centre the rest: exact for quadratic pressure on triangles, parallelograms.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeVar
@@ -12,11 +18,14 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from panelsim.conventions import QUAD_SPLITS, SPLIT_WEIGHT, STRETCHINGS, FloatArray, IntArray
+from panelsim.conventions import RULES, STRETCHINGS, FloatArray, IntArray, corner_shares, panel_centres
 from panelsim.errors import PanelsimError
 
 LANES = 8  # points that the kernel handles side by side
 INERT_POINT_HEIGHT = 1000.0  # m above the CG: where the points stand that only fill up a block
+# Share of a panel that the bend of the pressure takes beyond the third that the triangles give the centre.
+QUADRILATERAL_BEND = 2.0 / 3.0 - 1.0 / 3.0
+TRIANGLE_BEND = 3.0 / 4.0 - 1.0 / 3.0
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 
@@ -26,27 +35,27 @@ class PanelTables:
     """The hull surface in ship axes, ready for the pressure sum; made by `panel_tables`.
 
     The points are the vertices in order of height, so that most blocks of eight are wholly wet or
-    wholly dry, filled up to a multiple of eight with inert points that no panel uses.
+    wholly dry, filled up to a multiple of eight with inert points that no panel uses; then the centres of
+    the panels likewise, that of panel n being point `first_centre` + n.
 
-    `points` (P, 3) [m]; `response` (P, 6): force [m2] and moment about the origin [m3] for unit
-    pressure at the point; `reach` (P,) [m]: the longest triangle edge that ends at the point;
+    `points` (P, 3) [m]; `response`, of each rule (P, 6): force [m2] and moment about the origin [m3] for
+    unit pressure at the point; `reach` (P,) [m]: the distance to the farthest point of the same panel;
     `panels` (N, 4): point indices, counter-clockwise seen from the water.
     """
 
     points: FloatArray
-    response: FloatArray
+    response: Mapping[str, FloatArray]
     reach: FloatArray
     panels: NDArray[np.int32]
-
-    @property
-    def split_triangles(self) -> NDArray[np.int32]:
-        """Point indices (4 N, 3) of both splits of every panel; each counts with weight one half."""
-        return self.panels[:, QUAD_SPLITS].reshape(-1, 3)
+    first_centre: int
 
     @cached_property
-    def blocks(self) -> FloatArray:
-        """Points in blocks of eight (P/8, 10, 8): x, y, z, six responses, reach, eight of each in a row."""
-        columns = np.column_stack([self.points, self.response, self.reach])
+    def blocks(self) -> Mapping[str, FloatArray]:
+        """Of each rule, points in blocks of eight (P/8, 10, 8): x, y, z, six responses, reach."""
+        return {rule: self._blocks_of(response) for rule, response in self.response.items()}
+
+    def _blocks_of(self, response: FloatArray) -> FloatArray:
+        columns = np.column_stack([self.points, response, self.reach])
         return np.ascontiguousarray(columns.reshape(-1, LANES, 10).transpose(0, 2, 1))
 
 
@@ -90,27 +99,31 @@ class WaveTables:
 def panel_tables(vertices: FloatArray, panels: IntArray) -> PanelTables:
     """Build the tables of a surface from vertices (V, 3) in ship axes [m] and panels (N, 4).
 
-    Normals point into the water; a triangle repeats its third vertex and comes out as the plain
-    triangle. Raises PanelsimError for wrong shapes, coordinates that are not finite and indices
-    that name no vertex.
+    Normals point into the water; a triangle repeats its third vertex. Raises PanelsimError for wrong shapes,
+    coordinates that are not finite and indices that name no vertex.
     """
     vertices, panels = _checked_surface(vertices, panels)
-    order = np.argsort(vertices[:, 2], kind="stable")
-    rank = np.empty(len(order), dtype=np.int32)
-    rank[order] = np.arange(len(order))
-    ordered_panels = rank[panels]
+    vertex_order = np.argsort(vertices[:, 2], kind="stable")
+    rank = np.empty(len(vertex_order), dtype=np.int32)
+    rank[vertex_order] = np.arange(len(vertex_order))
+    panel_order = np.argsort(panel_centres(vertices, panels)[:, 2], kind="stable")
+    panels = panels[panel_order]
 
-    corners = ordered_panels[:, QUAD_SPLITS].reshape(-1, 3)
-    point_count = -(-len(vertices) // LANES) * LANES
-    points = np.zeros((point_count, 3))
-    points[:, 2] = INERT_POINT_HEIGHT
-    points[: len(vertices)] = vertices[order]
+    lower = _blocks_filled_up(vertices[vertex_order])
+    points = np.concatenate([lower, _blocks_filled_up(panel_centres(vertices, panels))])
+    ordered_panels = rank[panels]
     return PanelTables(
         points=_frozen(points),
-        response=_frozen(_vertex_response(points, corners)),
-        reach=_frozen(_longest_edge(points, corners)),
+        response={rule: _frozen(_responses(points, ordered_panels, len(lower), rule)) for rule in RULES},
+        reach=_frozen(_reach(points, ordered_panels, len(lower))),
         panels=_frozen(ordered_panels),
+        first_centre=len(lower),
     )
+
+
+def bend_shares(panels: NDArray[np.integer]) -> FloatArray:
+    """Share (N,) of each panel that the centre's pressure above the mean of its corners takes in addition."""
+    return np.where(panels[:, 2] == panels[:, 3], TRIANGLE_BEND, QUADRILATERAL_BEND)
 
 
 def wave_tables(
@@ -184,30 +197,58 @@ def require_stretching(stretching: str) -> None:
         )
 
 
-def _vertex_response(points: FloatArray, corners: NDArray[np.int32]) -> FloatArray:
-    """Load on half-weight triangles (T, 3) for unit pressure at each point: (P, 6), about the origin.
+def require_rule(rule: str) -> None:
+    """Raise PanelsimError unless `rule` is one of RULES."""
+    if rule not in RULES:
+        raise PanelsimError(
+            "The rule of the pressure integral is not known", got=rule, allowed=", ".join(RULES)
+        )
 
-    -nA/3 for the force and -((x_v + x_a + x_b + x_c)/12) × nA for the moment, the exact first
-    moments of a linear pressure.
+
+def _blocks_filled_up(points: FloatArray) -> FloatArray:
+    """Points (P, 3) and inert ones up to the next multiple of eight."""
+    filled = np.zeros((-(-len(points) // LANES) * LANES, 3))
+    filled[:, 2] = INERT_POINT_HEIGHT
+    filled[: len(points)] = points
+    return filled
+
+
+def _responses(points: FloatArray, panels: NDArray[np.int32], first_centre: int, rule: str) -> FloatArray:
+    """Load for unit pressure at each point: (P, 6), about the origin.
+
+    A triangle of area vector nA gives each of its corners -nA/3 for the force and
+    -((x_v + x_a + x_b + x_c)/12) × nA for the moment, the exact first moments of a linear pressure.
     """
-    x = points[corners]
-    area_vector = SPLIT_WEIGHT * 0.5 * np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
+    centre = first_centre + np.arange(len(panels))
+    triangles = np.stack(
+        [np.repeat(centre[:, None], 4, axis=1), panels, np.roll(panels, -1, axis=1)], axis=-1
+    )
+    x = points[triangles]
+    area_vector = 0.5 * np.cross(x[:, :, 1] - x[:, :, 0], x[:, :, 2] - x[:, :, 0])
     response = np.zeros((len(points), 6))
     for corner in range(3):
-        arm = (x[:, corner] + x.sum(axis=1)) / 12.0
-        np.add.at(response[:, :3], corners[:, corner], -area_vector / 3.0)
-        np.add.at(response[:, 3:], corners[:, corner], -np.cross(arm, area_vector))
+        arm = (x[:, :, corner] + x.sum(axis=2)) / 12.0
+        load = np.concatenate([-area_vector / 3.0, -np.cross(arm, area_vector)], axis=-1)
+        np.add.at(response, triangles[..., corner], load)
+    if rule == "vertex":
+        handed_over = response[centre]
+    else:
+        whole = area_vector.sum(axis=1)
+        bend = np.column_stack([-whole, -np.cross(points[centre], whole)])
+        handed_over = -bend_shares(panels)[:, None] * bend
+    response[centre] -= handed_over
+    np.add.at(response, panels, corner_shares(panels)[:, :, None] * handed_over[:, None, :])
     return response
 
 
-def _longest_edge(points: FloatArray, corners: NDArray[np.int32]) -> FloatArray:
-    """Longest edge or diagonal that ends at each point (P,) [m]."""
+def _reach(points: FloatArray, panels: NDArray[np.int32], first_centre: int) -> FloatArray:
+    """Distance from each point (P,) to the farthest point of the panels it belongs to [m]."""
+    centre = first_centre + np.arange(len(panels))
+    of_panel = np.column_stack([panels, centre])
+    x = points[of_panel]
+    farthest = np.linalg.norm(x[:, :, None] - x[:, None, :], axis=-1).max(axis=2)
     reach = np.zeros(len(points))
-    for first, second in ((0, 1), (1, 2), (2, 0)):
-        a, b = corners[:, first], corners[:, second]
-        length = np.linalg.norm(points[b] - points[a], axis=1)
-        np.maximum.at(reach, a, length)
-        np.maximum.at(reach, b, length)
+    np.maximum.at(reach, of_panel, farthest)
     return reach
 
 

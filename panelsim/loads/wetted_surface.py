@@ -7,7 +7,7 @@ import numpy as np
 from panelsim.conventions import FloatArray, load_to_earth
 from panelsim.errors import PanelsimError
 from panelsim.kernels.runtime import interrupts_held_back
-from panelsim.kernels.tables import panel_tables, wave_tables
+from panelsim.kernels.tables import panel_tables, require_rule, wave_tables
 from panelsim.loads.load import Instant
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.seaways import Seaway
@@ -22,7 +22,8 @@ class WettedSurface:
     Pressure −ρ g z_w + ρ g Σ a cos θ exp(k(z_w − ζ)) where the panel is, panels cut at the water
     surface, ζ with the second order of Stokes waves; force and moment about the CG in ship axes, then
     turned to translating earth axes.
-    `method` "direct" is the compiled sum over components, "oracle" its slow NumPy twin.
+    `method` "direct" is the compiled sum over components, "oracle" its slow NumPy twin; `rule` says where
+    the pressure of a panel is taken, "vertex" at its corners, "vertex+centre" at its centre as well.
     """
 
     name = "wetted_surface"
@@ -35,7 +36,9 @@ class WettedSurface:
         *,
         stretching: str = "wheeler",
         method: str = "auto",
+        rule: str = "vertex+centre",
     ) -> None:
+        require_rule(rule)
         self._integrate = _method(method)
         self._panels = panel_tables(ship.vertices, ship.mesh.panels)
         self._waves = wave_tables(
@@ -48,6 +51,7 @@ class WettedSurface:
         )
         self._ship = ship
         self._stretching = stretching
+        self._rule = rule
         self._pose = np.empty((1, 8))
 
     def in_ship_axes(self, instant: Instant) -> FloatArray:
@@ -64,6 +68,7 @@ class WettedSurface:
             water_density=self._ship.water_density,
             gravity=self._ship.gravity,
             stretching=self._stretching,
+            rule=self._rule,
         )[0]
 
     def evaluate(self, instant: Instant) -> FloatArray:

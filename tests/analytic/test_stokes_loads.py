@@ -157,6 +157,7 @@ def test_head_interpolated_to_the_cut_converges_with_the_square_of_the_edge(
             wave(theta),
             np.array([[0.0, 1.0, *[0.0] * 6]]),
             stretching=stretching,
+            rule="vertex",  # linear from corner to corner
             **HEADS,
         )
         d1 = elevations(theta + WAVENUMBER * size, True)[1] - corners[1, 2]
@@ -224,9 +225,14 @@ def exact_box_load(wt: float, stretching: str, second_order: bool) -> np.ndarray
     return np.array([aft - fore, heave, aft_moment - fore_moment - trim])
 
 
+@pytest.mark.parametrize(
+    ("rule", "least_order", "largest_order"), [("vertex", 1.85, 2.15), ("vertex+centre", 2.55, 4.2)]
+)
 @pytest.mark.parametrize("order", ORDERS)
 @pytest.mark.parametrize("stretching", ["wheeler", "none"])
-def test_fixed_box_feels_the_integral_of_the_pressure_over_its_wet_walls(stretching: str, order: str) -> None:
+def test_fixed_box_feels_the_integral_of_the_pressure_over_its_wet_walls(
+    stretching: str, order: str, rule: str, least_order: float, largest_order: float
+) -> None:
     """Surge, heave and pitch over a period, to a thousandth of their dynamic part.
 
     Zero head on the cut of a Stokes wave is an error of first order; with the other sign of the second
@@ -240,17 +246,17 @@ def test_fixed_box_feels_the_integral_of_the_pressure_over_its_wet_walls(stretch
     errors = []
     for n in (10, 20, 40, 80):
         load = wetted_surface_load(
-            box(n), wave(second_order=ORDERS[order]), poses, stretching=stretching, **HEADS
+            box(n), wave(second_order=ORDERS[order]), poses, stretching=stretching, rule=rule, **HEADS
         )
         errors.append(np.abs((load[:, [0, 2, 4]] - exact) / dynamic).max(axis=0))
     fitted = slope([float(np.linalg.norm(error)) for error in errors])
-    print(f"{stretching}, {order}: error of surge, heave, pitch {errors[-1]}, order {fitted:.2f}")
-    assert abs(fitted - 2.0) < 0.15
+    print(f"{rule}, {stretching}, {order}: error of surge, heave, pitch {errors[-1]}, order {fitted:.2f}")
+    assert least_order < fitted < largest_order
     assert errors[-1].max() < 1e-3
 
 
 def test_split_triangles_converge_to_the_integral_too() -> None:
-    """The brute-force reference on the coarsest box, its triangles in 1, 4 … 64 parts."""
+    """The brute-force reference on the coarsest box, its triangles in 1, 4 … 64 parts each."""
     pose, exact = np.array([[0.8, 1.0, *[0.0] * 6]]), exact_box_load(0.8, "wheeler", True)
     errors = []
     for levels in range(4):

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from panelsim.conventions import DOF_NAMES, KNOT, load_to_earth
+from panelsim.conventions import DOF_NAMES, KNOT, load_to_earth, panel_triangles
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.diffraction import diffraction_momentum
 from panelsim.hydro.store import database_for
@@ -60,9 +60,9 @@ def stiffness_from_buoyancy(ship: Ship) -> np.ndarray:
 def froude_krylov(ship: Ship, omega: float, beta: float) -> np.ndarray:
     """Froude-Krylov load (6,) per unit amplitude, three points a triangle on the panels below the water."""
     k = omega**2 / ship.gravity
-    corners = ship.vertices[ship.mesh.split_triangles]
+    corners = panel_triangles(ship.vertices, ship.mesh.panels).reshape(-1, 3, 3)
     corners = corners[corners[..., 2].max(axis=1) <= ship.waterline + 1e-9]
-    area = 0.25 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     load = np.zeros(6, dtype=complex)
     for bary in ([2 / 3, 1 / 6, 1 / 6], [1 / 6, 2 / 3, 1 / 6], [1 / 6, 1 / 6, 2 / 3]):
         point = np.einsum("c,tcx->tx", bary, corners)
