@@ -226,6 +226,14 @@ def test_a_recorded_sea(tmp_path: Path) -> None:
         ),
         (f"{RANDOM}sea_state = 5\ndirection_step_deg = 9\n{WAVES}", ["add spreading"]),
         (
+            f'{RANDOM}spectrum = "ten-parameter"\n{GRID}'
+            + SYSTEMS.format(
+                swell="sea_direction_deg = 5\nspread = 9", sea="sea_direction_deg = 5\nspread = 9"
+            ),
+            ["direction_step_deg", "for example 20"],
+        ),
+        (f'{RANDOM}spectrum = "table"\nfile = "a\\u0000b"\n{WAVES}', ["seaway.file", "u0000"]),
+        (
             f'{RANDOM}spectrum = "ochi-hubble"\n{WAVES}{SYSTEMS.format(swell="spread = 3", sea="")}',
             ["system 1", "has no spread", "ten-parameter"],
         ),
