@@ -125,7 +125,7 @@ def _draw_directions(axis: PolarAxes, seaway: Seaway) -> None:
     axis.set_xticks(np.deg2rad([0, 45, 90, 135, 180, 225, 270, 315]))
     axis.set_xticklabels(["bow", "", "starboard", "", "stern", "", "port", ""])
     axis.set_yticklabels([])
-    axis.tick_params(colors=INK, labelsize=8, pad=8)
+    axis.tick_params(colors=INK, labelsize=8, pad=14)
     axis.set_title("Energy by where the waves come from", fontsize=10)
 
 
