@@ -3,6 +3,7 @@
 import shlex
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import astuple
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 from rich.table import Table
 
 from panelsim.case import Case
+from panelsim.hull.defects import MeshDefect
 from panelsim.results.tables import statistics_table
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.random import RandomSeaway
@@ -73,9 +75,20 @@ def show_facts(facts: ShipFacts) -> None:
         "block coefficient": f"{facts.block_coefficient:.4f}",
         "GM transverse, longitudinal": f"{_metres(facts.gm_transverse)}, {_metres(facts.gm_longitudinal)}",
     }
+    if facts.mesh_defect is not None:
+        rows |= _defect_rows(facts.mesh_defect)
     show_rows(f"{facts.name}, at rest in calm water", rows)
     if facts.published:
         _show_published(facts.published)
+
+
+def _defect_rows(defect: MeshDefect) -> dict[str, str]:
+    """What the panels lose of their form, under 80 columns."""
+    volume, area, transverse, longitudinal = (f"{_number(value, 2)} %" for value in astuple(defect))
+    return {
+        "panels less smooth form": f"volume {volume}, waterplane {area}",
+        "  its second moments": f"transverse {transverse}, longitudinal {longitudinal}",
+    }
 
 
 def _forward_and_up(point: tuple[float, ...]) -> str:

@@ -9,9 +9,10 @@ import numpy as np
 
 from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
-from panelsim.hull.curve import Waterline, without_repeats
+from panelsim.hull.curve import Curve, Waterline, split_at_waterline, without_repeats
 from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.hull.panelling import panel_lines
+from panelsim.hull.side_surface import SideSurface
 
 OFFSET_COLUMNS = ["x", "half_breadth", "height"]
 
@@ -57,8 +58,28 @@ class HullLines:
     def panel(self, area: float, waterline: Waterline) -> PanelMesh:
         """Closed mesh of nominal panel area [m2], see `panel_lines`."""
         foot = self.sections[0][0] if self.transom else None
-        aft = without_repeats(np.vstack([self.stern, self.sections[0]])) if self.transom else self.stern
-        return panel_lines(self.sections, aft, self.stem, foot, area, waterline)
+        return panel_lines(self.sections, self.aft, self.stem, foot, area, waterline)
+
+    @property
+    def aft(self) -> FloatArray:
+        """The end (P, 3) [m] from the keel to the deck: the stern profile, then the edge of a transom."""
+        if not self.transom:
+            return self.stern
+        return without_repeats(np.vstack([self.stern, self.sections[0]]))
+
+    def wet_side(self, waterline: Waterline) -> SideSurface | None:
+        """The port side under water, which its panels follow ever closer as they shrink.
+
+        None where the water passes the deck, the stem or the stern by.
+        """
+        wet, dry = zip(
+            *(split_at_waterline(line, waterline) for line in (self.aft, *self.sections, self.stem)),
+            strict=True,
+        )
+        if min(len(part) for part in (wet[0], wet[-1], *dry)) < 2:
+            return None
+        ends = Curve.by_arc_length(wet[0]), Curve.by_arc_length(wet[-1])
+        return SideSurface.through(list(wet[1:-1]), *ends, waterline_at=1.0)
 
     def signature(self) -> FloatArray:
         """Every number that defines the lines, in one row."""

@@ -64,6 +64,32 @@ class SideSurface:
         points[0], points[-1] = nodes[0], nodes[-1]
         return points
 
+    def volume(self, columns: int, rows: int) -> float:
+        """Volume between the surface and the centreplane [m3], from a grid of so many cells cut in triangles.
+
+        The error falls with the square of their size.
+        """
+        grid = self.points(self.stations(columns), np.linspace(0.0, 1.0, rows + 1))
+        corners = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]])
+        x, half_breadth, z = np.moveaxis(corners, -1, 0)
+        volume = 0.0
+        for i, j, k in ((0, 1, 2), (0, 2, 3)):
+            shadow = (x[j] - x[i]) * (z[k] - z[i]) - (x[k] - x[i]) * (z[j] - z[i])
+            volume += float(np.sum(shadow * (half_breadth[i] + half_breadth[j] + half_breadth[k]))) / 6.0
+        return volume
+
+    def half_breadth(self, x: FloatArray) -> FloatArray:
+        """Half-breadths (X,) of the waterline [m] at x (X,) [m] on it: cubic between `waterline_knots`."""
+        ends = self.stations(1)
+        columns = np.concatenate([ends[:1], x, ends[1:]])
+        return self.points(columns, np.array([self.waterline_at]))[1:-1, 0, 1]
+
+    def waterline_knots(self) -> FloatArray:
+        """x [m] of the ends of the waterline and of the sections between them, in order."""
+        aft, fore = self.stations(1)
+        between = [x for x in (float(curve.points[0, 0]) for curve in self.sections) if aft < x < fore]
+        return np.array([aft, *between, fore])
+
     def _reached(self, nodes: FloatArray, girth: FloatArray) -> NDArray[np.bool_]:
         """Which curves (K, R) each row meets: its ends, and the sections that it reaches between them."""
         clear = 1e-6 * (nodes[-1, :, 0] - nodes[0, :, 0])

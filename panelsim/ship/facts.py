@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from panelsim.hull.defects import MeshDefect, mesh_defect
 from panelsim.hull.form import HullForm
 from panelsim.ship.ship import Ship
 
@@ -21,7 +22,10 @@ class Published:
 
 @dataclass(frozen=True)
 class ShipFacts:
-    """Hydrostatic particulars of a ship at rest: m, kg, m2, m3; points in hull axes."""
+    """Hydrostatic particulars of a ship at rest: m, kg, m2, m3; points in hull axes.
+
+    `mesh_defect`: what the panels lose of the form they came from [%], None where no form is known.
+    """
 
     name: str
     draft: float
@@ -41,6 +45,7 @@ class ShipFacts:
     gm_transverse: float
     gm_longitudinal: float
     water_density: float
+    mesh_defect: MeshDefect | None
     published: dict[str, Published]
     warnings: tuple[str, ...]
 
@@ -71,6 +76,7 @@ def ship_facts(ship: Ship) -> ShipFacts:
         gm_transverse=rest.gm_transverse,
         gm_longitudinal=rest.gm_longitudinal,
         water_density=ship.water_density,
+        mesh_defect=None if ship.form is None else mesh_defect(ship.form, rest),
         published=_beside_published(ship),
         warnings=ship_warnings(ship),
     )
