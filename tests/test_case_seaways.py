@@ -226,6 +226,14 @@ def test_a_recorded_sea(tmp_path: Path) -> None:
         ),
         (f"{RANDOM}sea_state = 5\ndirection_step_deg = 9\n{WAVES}", ["add spreading"]),
         (
+            f'{RANDOM}spectrum = "ten-parameter"\n{GRID}'
+            + SYSTEMS.format(
+                swell="sea_direction_deg = 5\nspread = 9", sea="sea_direction_deg = 5\nspread = 9"
+            ),
+            ["direction_step_deg", "for example 20"],
+        ),
+        (f'{RANDOM}spectrum = "table"\nfile = "a\\u0000b"\n{WAVES}', ["seaway.file", "u0000"]),
+        (
             f'{RANDOM}spectrum = "ochi-hubble"\n{WAVES}{SYSTEMS.format(swell="spread = 3", sea="")}',
             ["system 1", "has no spread", "ten-parameter"],
         ),
@@ -321,20 +329,30 @@ RECORD = (
 
 
 def test_keys_of_a_record(tmp_path: Path, record_file: Path) -> None:
-    both = case_of(tmp_path, RECORD + "low_frequency = 0.3\nhigh_frequency = 2").seaway.components
+    both = case_of(
+        tmp_path, RECORD + "minimum_energy = 0\nlow_frequency = 0.3\nhigh_frequency = 2"
+    ).seaway.components
     np.testing.assert_allclose(np.sort(both.amplitude)[-2:], [0.5, 1.0], atol=1e-9)
-    upper = case_of(tmp_path, RECORD + "low_frequency = 1\nhigh_frequency = 2").seaway.components
+    upper = case_of(
+        tmp_path, RECORD + "minimum_energy = 0\nlow_frequency = 1\nhigh_frequency = 2"
+    ).seaway.components
     assert upper.amplitude.max() == pytest.approx(0.5, abs=1e-9)
-    lower = case_of(tmp_path, RECORD + "low_frequency = 0.3\nhigh_frequency = 1").seaway.components
+    lower = case_of(
+        tmp_path, RECORD + "minimum_energy = 0\nlow_frequency = 0.3\nhigh_frequency = 1"
+    ).seaway.components
     assert (lower.amplitude.max(), lower.frequency.max() <= 1) == (pytest.approx(1.0, abs=1e-9), True)
     faded = case_of(
-        tmp_path, RECORD + "low_frequency = 0.3\nhigh_frequency = 1\ntaper = 0.5"
+        tmp_path, RECORD + "minimum_energy = 0\nlow_frequency = 0.3\nhigh_frequency = 1\ntaper = 0.5"
     ).seaway.components
     assert np.sum(faded.amplitude > 0.01) > 1  # a tapered wave has neighbours in the spectrum
     twice = case_of(
-        tmp_path, RECORD.replace("up", "twice") + "low_frequency = 0.3\nhigh_frequency = 1"
+        tmp_path,
+        RECORD.replace("up", "twice") + "minimum_energy = 0\nlow_frequency = 0.3\nhigh_frequency = 1",
     ).seaway.components
     assert twice.amplitude.max() == pytest.approx(2.0, abs=1e-9)
+    # A band in Hz where rad/s belong holds nothing of the sea.
+    with pytest.raises(PanelsimError, match="2π times Hz"):
+        _ = case_of(tmp_path, RECORD + "low_frequency = 0.05\nhigh_frequency = 0.4").seaway
 
 
 @pytest.mark.parametrize(

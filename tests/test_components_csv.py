@@ -213,3 +213,9 @@ def test_steep_but_possible_components_are_accepted() -> None:
     ComponentSeaway(WaveComponents(4.3, 1.0, 0.0, 0.0))
     with pytest.raises(PanelsimError, match=r"0\.143"):
         ComponentSeaway(WaveComponents(4.4, 1.0, 0.0, 0.0))
+
+
+def test_components_without_energy_are_no_sea() -> None:
+    with pytest.raises(PanelsimError, match="no energy") as refusal:
+        ComponentSeaway(WaveComponents(np.zeros(2), np.ones(2), np.zeros(2), np.zeros(2)))
+    assert "CalmSeaway" in str(refusal.value)

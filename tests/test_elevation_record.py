@@ -180,8 +180,22 @@ def test_share_of_the_variance_in_the_band() -> None:
     time = STEP * np.arange(800)
     omega = 2 * np.pi / 400.0
     record = ElevationRecord(time, 0.3 * np.cos(50 * omega * time) + 0.4 * np.sin(150 * omega * time))
-    sea = RecordedSeaway(record, 0.0, 0.5, 1.0)
+    sea = RecordedSeaway(record, 0.0, 0.5, 1.0, minimum_energy=0.3)
     assert sea.record_share == pytest.approx(9 / 25, rel=1e-12)
+    with pytest.raises(PanelsimError, match="rad/s, 2π times Hz") as refusal:
+        RecordedSeaway(record, 0.0, 0.5, 1.0)
+    assert "36.0 %" in str(refusal.value)
+
+
+def test_a_record_in_centimetres_is_no_sea() -> None:
+    """0.3 m at 0.8 rad/s are 30 "m" then: a steepness of 1.2."""
+    time = STEP * np.arange(800)
+    wave = ElevationRecord(time, 30.0 * np.cos(2 * np.pi / 400.0 * 50 * time))
+    with pytest.raises(PanelsimError, match="steeper") as refusal:
+        RecordedSeaway(wave, 0.0, 0.5, 1.0)
+    assert "metres" in str(refusal.value)
+    with pytest.raises(PanelsimError, match="another kind"):
+        RecordedSeaway("buoy.csv", 0.0, 0.5, 1.0)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(

@@ -166,3 +166,12 @@ def test_grid_goes_with_the_root_of_length_and_ends_where_the_panels_do(database
     wet = mesh.centroid[:, 2] < ship.draft
     resolved = highest_resolved_frequency(float(mesh.area[wet].mean()), ship.gravity)
     assert database.frequencies[-1] == pytest.approx(min(resolved, 2.6 * np.sqrt(12.0)))
+
+
+def test_panels_too_coarse_to_float_like_the_hull_are_refused_before_the_work() -> None:
+    """At 20 m2 the LCG of the corvette that floats at its draft is 0.3 m from that of its hull."""
+    begun: list[float] = []
+    with pytest.raises(PanelsimError, match="too coarse") as refusal:
+        HydroDatabase.compute(load_ship("corvette", 20.0), progress=lambda done, total: begun.append(done))
+    assert "smaller ship.panel_area" in str(refusal.value) and "center of gravity x" in str(refusal.value)
+    assert not begun

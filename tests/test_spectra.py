@@ -562,3 +562,9 @@ def test_a_sea_too_steep_is_told_what_would_do() -> None:
     for part in ("1.025", "0.142", "5.5 m", "13.4 s"):
         assert part in str(refusal.value)
     Bretschneider(5.5, 5.0)
+
+
+def test_no_sea_is_fully_developed_in_a_wind_of_100_m_s() -> None:
+    with pytest.raises(PanelsimError, match="long enough") as refusal:
+        PiersonMoskowitz(100.0)
+    assert "50 m/s" in str(refusal.value)

@@ -22,6 +22,9 @@ from panelsim.ship.bundled import default_panel_area
 from panelsim.ship.facts import ship_warnings
 from panelsim.ship.ship import Ship
 
+# At this many a step of a medium mesh takes some ten milliseconds, and an hour of sea ten minutes.
+MANY_COMPONENTS = 2000
+
 
 class Case:
     """A checked case: what to run. Reading it builds nothing heavy; its properties do, once each."""
@@ -100,6 +103,11 @@ class Case:
         """What is allowed but unusual, one sentence each."""
         warnings = list(ship_warnings(self.ship))
         seaway = self.seaway
+        if seaway.components.count > MANY_COMPONENTS:
+            warnings.append(
+                f"The sea has {seaway.components.count} components, and a run's time grows with them: fewer"
+                " frequencies or directions, a narrower band or seaway.drop_below make it quicker."
+            )
         steepness = seaway.point_spectrum.nominal_steepness if isinstance(seaway, RandomSeaway) else 0.0
         if steepness > BUCKLEY_STEEPNESS:
             warnings.append(

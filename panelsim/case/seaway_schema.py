@@ -195,8 +195,9 @@ class SeawaySection(Section):
         self._headings_fit()
         if self.direction_step_deg is not None and not self._is_spread():
             raise ValueError("direction_step_deg is for short-crested seas: add spreading, or leave it out")
-        if self.spreading is not None and self.direction_step_deg is None:
-            raise ValueError("spreading also needs direction_step_deg, for example 20")
+        stepless = self.spreading is not None or (self.kind, self.spectrum) == ("random", "ten-parameter")
+        if stepless and self.direction_step_deg is None:
+            raise ValueError("a short-crested sea also needs direction_step_deg, for example 20")
         return self
 
     def _name(self) -> str:

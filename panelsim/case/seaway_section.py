@@ -75,7 +75,7 @@ class SeawayBuilder:
 
     def _path(self) -> Path:
         assert self._section.file is not None
-        return Path(beside(self._folder, self._section.file))
+        return _file(self._folder, self._section.file)
 
     def _regular(self) -> RegularSeaway:
         section = self._section
@@ -135,6 +135,7 @@ class SeawayBuilder:
             section.high_frequency or np.inf,
             taper=section.taper or 0.0,
             ship_heading=self._course,
+            minimum_energy=section.minimum_energy,
         )
 
     def _require_own_directions(self) -> None:
@@ -161,7 +162,7 @@ class SeawayBuilder:
         if section.format == "netcdf":
             return self._random_of(open_spectrum(self._path(), time=section.time, site=section.site))
         if section.format == "ndbc":
-            files = [beside(self._folder, name) for name in section.files or [section.file or ""]]
+            files = [_file(self._folder, name) for name in section.files or [section.file or ""]]
             return self._random_of(read_ndbc_spectrum(files, time=section.time))
         buoy = read_ndbc_meteorology(self._path())
         if self._heading is None:
@@ -169,6 +170,18 @@ class SeawayBuilder:
             from_north = buoy.sea_direction_at(section.time)
             self._heading = float(np.remainder(from_north + np.pi - self._course, 2 * np.pi))
         return self._random_of(buoy.spectrum_at(section.time))
+
+
+def _file(folder: Path, name: str) -> Path:
+    """A file beside the case, or where panelsim is run; PanelsimError where there is none."""
+    path = Path(beside(folder, name))
+    if not path.is_file():
+        raise PanelsimError(
+            "There is no such file of the seaway",
+            got=name,
+            allowed=f"a file in {folder}, beside the case, or a path from where panelsim is run",
+        )
+    return path
 
 
 def build_spectrum(section: SeawaySection, folder: Path) -> Spectrum:
@@ -200,9 +213,9 @@ def build_spectrum(section: SeawaySection, folder: Path) -> Spectrum:
         case "ochi-hubble" | "ten-parameter":
             return _of_systems(section)
         case "table":
-            return read_table_spectrum(beside(folder, values["file"]))
+            return read_table_spectrum(_file(folder, values["file"]))
         case "directional-table":
-            return read_directional_table(beside(folder, values["file"]))
+            return read_directional_table(_file(folder, values["file"]))
 
 
 def _of_sea_state(number: int) -> dict[str, float]:

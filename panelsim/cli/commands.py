@@ -245,8 +245,11 @@ def sea(
 
     make_output_folder(folder)
     files = [sea_picture(case.seaway, case.ship, case.speed, folder / "sea.png")]
-    if not case.seaway.components.second_order:  # the columns of such a file say nothing of it
-        files.append(write_components(folder / "components.csv", case.seaway.components, overwrite=True))
+    table = folder / "components.csv"
+    if case.seaway.components.second_order:
+        table.unlink(missing_ok=True)  # of another sea, and its columns say nothing of the second order
+    else:
+        files.append(write_components(table, case.seaway.components, overwrite=True))
     out.print(f"Files in {folder}: {', '.join(file.name for file in files)}", soft_wrap=True)
 
 

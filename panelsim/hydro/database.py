@@ -66,6 +66,7 @@ class HydroDatabase:
         if method != "bem":
             raise PanelsimError("This method is not known", got=method, allowed="bem")
         solved = _panelled_for_solution(ship)
+        _require_same_flotation(ship, solved)
         mesh = solved.mesh if ship.form is not None else _refined(ship)
         wet = _wet_panels(ship, mesh)
         resolved = highest_resolved_frequency(float(mesh.area[wet].mean()), ship.gravity)
@@ -231,6 +232,21 @@ def _panelled_for_solution(ship: Ship) -> Ship:
     first = ship.at_panel_area(default_panel_area(ship.form))
     wetted_surface = float(first.mesh.area[_wet_panels(first, first.mesh)].sum())
     return ship.at_panel_area(wetted_surface / _WET_PANELS)
+
+
+def _require_same_flotation(ship: Ship, solved: Ship) -> None:
+    """Refuse a ship whose coarse panels float so far from the hull that its coefficients are another's."""
+    stored, wanted = solved.identity(), ship.identity()
+    apart = [name for name in wanted if not _same(name, stored[name], wanted[name], ship.length)]
+    if apart:
+        raise PanelsimError(
+            "The panels of the ship are too coarse: it floats otherwise than its hull",
+            got="; ".join(
+                f"{name.replace('_', ' ')} {_text(wanted[name])}, with fine panels {_text(stored[name])}"
+                for name in apart
+            ),
+            remedy="take a smaller ship.panel_area",
+        )
 
 
 def _refined(ship: Ship) -> PanelMesh:

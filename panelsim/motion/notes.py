@@ -27,8 +27,12 @@ def run_notes(
     time_step: float,
     length: float,
     model: str,
+    seeded: bool = True,
 ) -> list[str]:
-    """Sentences on a run of `length` [s] at `speed` [m/s] with `time_step` [s]; none where all is well."""
+    """Sentences on a run of `length` [s] at `speed` [m/s] with `time_step` [s]; none where all is well.
+
+    `seeded` where the phases are a choice of chance, not those of a record.
+    """
     notes = []
     if components.second_order and model == "linear":
         notes.append(
@@ -44,7 +48,8 @@ def run_notes(
             f"The ship meets nearly the same waves again every {again:.0f} s (evenly spaced frequencies):"
             " a longer run adds little to its statistics."
         )
-    notes += _scatter_note(components, speed, length, database.gravity)
+    if seeded:
+        notes += _scatter_note(components, speed, length, database.gravity)
     return notes + _course_note(database, supplementary, speed)
 
 

@@ -144,6 +144,7 @@ def simulate(
                 time_step=time_step,
                 length=ramp + duration,
                 model=model,
+                seeded=seaway.kind in ("random", "dataset"),
             ),
         ],
     )

@@ -9,7 +9,7 @@ from panelsim.errors import PanelsimError
 from panelsim.seaway.dispersion import encounter_frequency, wavenumber
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class WaveComponents:
     """Sinusoidal deep-water waves, each array of shape (M,).
 

@@ -14,7 +14,7 @@ from panelsim.seaway.translating import TranslatingSeaway
 from panelsim.seaway.view import SeawayView
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FixedSeaway(SeawayView):
     """Waves in axes at rest: x north, y west [m].
 

@@ -52,7 +52,7 @@ class FrequencyChoice(ABC):
         """The frequencies for a spectrum, of so many directions; the generator for those left to chance."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class GivenFrequencies(FrequencyChoice):
     """Exactly these frequencies (N,) [rad/s], the same in all directions; Δω reaches half way to the next.
 

@@ -11,14 +11,14 @@ from panelsim.seaway.seaways import Seaway
 from panelsim.seaway.steepness import BREAKING_STEEPNESS
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ComponentSeaway(Seaway):
     """A sum of waves, each as in TM 2003-190 (10), that are given one by one.
 
     `wave_components` with headings relative to the ship on the compass course `ship_heading` [rad].
 
-    Raises PanelsimError where there are no components, where one alone is steeper than H/λ = 0.142, at which
-    waves break, and for a heading that is no angle in radians.
+    Raises PanelsimError where there are no components or none has an amplitude, where one alone is steeper
+    than H/λ = 0.142, at which waves break, and for a heading that is no angle in radians.
     """
 
     wave_components: WaveComponents
@@ -35,6 +35,12 @@ class ComponentSeaway(Seaway):
                 got="0 components" if isinstance(given, WaveComponents) else repr(given)[:60],
                 allowed="WaveComponents of at least one wave",
                 remedy="take CalmSeaway for calm water",
+            )
+        if not given.variance > 0.0:
+            raise PanelsimError(
+                "The given components have no energy",
+                got=f"{given.count} of amplitude 0",
+                remedy='take CalmSeaway, kind = "calm", for calm water',
             )
         _require_unbroken(given)
 

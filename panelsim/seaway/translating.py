@@ -10,7 +10,7 @@ from panelsim.seaway.coordinates import require_speed
 from panelsim.seaway.view import SeawayView
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TranslatingSeaway(SeawayView):
     """Waves in axes that move with the mean speed [m/s] and course of the ship, x forward and y to port.
 

@@ -176,7 +176,7 @@ class SeawayView(ABC):
         return 1j * self.components.frequency[:, None] * self._gradient
 
     def _dynamic_pressure(self, water_density: float) -> ComplexArray:
-        require_number("water density", water_density, "kg/m3", low=1.0, high=1e5)
+        require_number("water density", water_density, "kg/m3", low=500.0, high=2000.0)
         return water_density * self.gravity * self._amplitude
 
     # --- the sums ---

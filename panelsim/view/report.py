@@ -67,7 +67,9 @@ def _sea_in_short(history: History) -> str:
     waves, knots = history.components, history.attrs["speed"] / KNOT
     if not waves.count:
         return f"calm water, {knots:.1f} knots"
-    kind = history.seaway_attrs["kind"]
+    kind = {"record": "recorded", "components": "given", "dataset": "random"}.get(
+        history.seaway_attrs["kind"], history.seaway_attrs["kind"]
+    )
     return f"{kind} waves, {_wave_height(history)}, {_heading_degrees(history):.0f} deg, {knots:.1f} knots"
 
 

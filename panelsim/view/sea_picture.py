@@ -28,22 +28,30 @@ ENERGY_SHOWN = 0.998
 def sea_picture(seaway: Seaway, ship: Ship, speed: float, path: Path) -> Path:
     """Draw the sea that a ship meets at a speed [m/s] into a PNG file."""
     figure = Figure(figsize=(12, 9.5), layout="constrained")
-    waves = seaway.components
     _draw_spectrum(figure.add_subplot(2, 2, 1), seaway)
     _draw_encounter(figure.add_subplot(2, 2, 2), seaway, speed, ship.gravity)
     polar = figure.add_subplot(2, 2, 3, projection="polar")
     assert isinstance(polar, PolarAxes)
     _draw_directions(polar, seaway)
     _draw_surface(figure.add_subplot(2, 2, 4), seaway, ship, speed)
-    height = f"4 × RMS of the elevation {4 * np.sqrt(waves.variance):.3g} m"
-    figure.suptitle(f"{seaway.kind} sea, {waves.count} components, {height}")
+    figure.suptitle(_title(seaway))
     return save(figure, path)
+
+
+def _title(seaway: Seaway) -> str:
+    waves = seaway.components
+    if waves.count == 1:
+        theory = "Stokes wave of second order" if waves.second_order else "regular wave"
+        period = 2 * np.pi / float(waves.frequency[0])
+        return f"{theory}, height {2 * waves.amplitude[0]:.3g} m, period {period:.3g} s"
+    height = 4 * np.sqrt(waves.variance)
+    return f"{seaway.kind} sea, {waves.count} components, 4 × RMS of the elevation {height:.3g} m"
 
 
 def _bands(frequency: FloatArray) -> FloatArray:
     """Edges of bands around the frequencies: one each where they are few, else even ones."""
     distinct = np.unique(frequency)
-    if len(distinct) == 1:
+    if len(distinct) == 1:  # several directions of one frequency
         return distinct[0] * np.array([0.98, 1.02])
     if len(distinct) > MOST_BANDS:
         return np.linspace(distinct[0], distinct[-1], BROAD_BANDS + 1)
@@ -62,6 +70,10 @@ def _spectrum_of(seaway: Seaway) -> PointSpectrum | None:
 
 def _draw_spectrum(axis: Axes, seaway: Seaway) -> None:
     waves, target = seaway.components, _spectrum_of(seaway)
+    axis.set_title("Spectrum", fontsize=10)
+    if waves.count == 1:
+        _draw_one(axis, float(waves.frequency[0]), waves, REALISED, "wave frequency ω [rad/s]")
+        return
     bands = _bands(waves.frequency)
     energy = _energy_in(bands, waves.frequency, waves)
     axis.bar(bands[:-1], energy / np.diff(bands), np.diff(bands), align="edge", color=REALISED, alpha=0.45)
@@ -71,13 +83,17 @@ def _draw_spectrum(axis: Axes, seaway: Seaway) -> None:
         omega = np.linspace(ends[0], ends[1], 600)
         axis.plot(omega, target.density(omega), color=TARGET, linewidth=1.5, label="spectrum")
     _label(axis, "wave frequency ω [rad/s]", "S [m² s/rad]")
-    axis.set_title("Spectrum", fontsize=10)
 
 
 def _draw_encounter(axis: Axes, seaway: Seaway, speed: float, gravity: float) -> None:
     """Energy by |ω_e|: waves that the ship overtakes beside those that run through it."""
     waves, target = seaway.components, _spectrum_of(seaway)
     encounter = waves.encounter_frequency(speed, gravity)
+    axis.set_title(f"As met at {speed:.3g} m/s", fontsize=10)
+    if waves.count == 1:
+        color = REALISED if encounter[0] >= 0 else OVERTAKEN
+        _draw_one(axis, abs(float(encounter[0])), waves, color, "encounter frequency |ω_e| [rad/s]")
+        return
     order = np.argsort(np.abs(encounter))
     share = np.cumsum(waves.amplitude[order] ** 2) / (2 * waves.variance)
     highest = np.abs(encounter)[order][np.searchsorted(share, ENERGY_SHOWN)]
@@ -100,7 +116,16 @@ def _draw_encounter(axis: Axes, seaway: Seaway, speed: float, gravity: float) ->
         energy = encounter_energy(target, bands, speed, float(waves.wave_heading[0]), gravity)
         axis.stairs(energy / width, bands, color=TARGET, linewidth=1.5, label="spectrum")
     _label(axis, "encounter frequency |ω_e| [rad/s]", "S [m² s/rad]")
-    axis.set_title(f"As met at {speed:.3g} m/s", fontsize=10)
+
+
+def _draw_one(axis: Axes, frequency: float, waves: WaveComponents, color: str, label: str) -> None:
+    """One wave has an amplitude, not a density."""
+    amplitude = float(waves.amplitude[0])
+    axis.vlines(frequency, 0.0, amplitude, color=color, linewidth=3)
+    axis.plot(frequency, amplitude, "o", color=color)
+    axis.set_xlim(0.0, 2.0 * max(frequency, float(waves.frequency[0])))
+    axis.set_ylim(0.0, 1.2 * amplitude)
+    _label(axis, label, "amplitude [m]")
 
 
 def _draw_directions(axis: PolarAxes, seaway: Seaway) -> None:
@@ -125,7 +150,7 @@ def _draw_directions(axis: PolarAxes, seaway: Seaway) -> None:
     axis.set_xticks(np.deg2rad([0, 45, 90, 135, 180, 225, 270, 315]))
     axis.set_xticklabels(["bow", "", "starboard", "", "stern", "", "port", ""])
     axis.set_yticklabels([])
-    axis.tick_params(colors=INK, labelsize=8, pad=8)
+    axis.tick_params(colors=INK, labelsize=8, pad=14)
     axis.set_title("Energy by where the waves come from", fontsize=10)
 
 

@@ -24,7 +24,7 @@ CORNERS = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class DirectionalTable(DirectionalSpectrum):
     """S(ω, ν) linear between the rows in ω, and linear between the columns in ν around the circle.
 

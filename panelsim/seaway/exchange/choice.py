@@ -24,7 +24,9 @@ def chosen_place(name: str, values: NDArray[np.generic], wanted: object) -> int:
             f"It is not said which {name} is meant",
             got=_range(values),
             allowed="one of them",
-            remedy=f"give {name}=, for example {_text(values[0])!r}" if len(values) else None,
+            remedy=f"say which {name}, in a case seaway.{name}, for example {_text(values[0])}"
+            if len(values)
+            else None,
         )
     if np.issubdtype(values.dtype, np.datetime64):
         wanted = _utc_moment(wanted)

@@ -39,7 +39,7 @@ METEOROLOGY = {
 def read_ndbc_spectrum(
     files: str | Path | Sequence[str | Path], *, time: Moment | None = None
 ) -> TableSpectrum | DirectionalTable:
-    """One spectrum of NDBC files, realtime or historical, plain or .gz, read by wavespectra.
+    """One spectrum of NDBC files, realtime or historical, the historical ones also .gz, read by wavespectra.
 
     One file gives the point spectrum; five, in the order density, α1, α2, r1, r2, the directional one, every
     10° by `weighted_distribution`. r1 and r2 in hundredths, as historical files may have them, are told

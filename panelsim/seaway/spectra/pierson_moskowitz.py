@@ -7,11 +7,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from panelsim.conventions import STANDARD_GRAVITY, FloatArray
+from panelsim.errors import PanelsimError
 from panelsim.seaway.checks import require_positive
 from panelsim.seaway.spectra.bretschneider import PHILLIPS_LEVEL, Bretschneider
 from panelsim.seaway.spectra.point_spectrum import PointSpectrum
 
 WIND_FACTOR = 0.74  # β, SIMULATORS (5)
+STRONGEST_WIND = 50.0  # m/s
 
 
 @dataclass(frozen=True)
@@ -29,7 +31,12 @@ class PiersonMoskowitz(PointSpectrum):
     peak_period: float = field(init=False)
 
     def __post_init__(self) -> None:
-        require_positive("wind_speed", self.wind_speed, "m/s")
+        if require_positive("wind_speed", self.wind_speed, "m/s") > STRONGEST_WIND:
+            raise PanelsimError(
+                "No such wind blows long enough for a fully developed sea",
+                got=f"{self.wind_speed:g} m/s",
+                allowed=f"at most {STRONGEST_WIND:g} m/s (a sea of 53 m)",
+            )
         object.__setattr__(self, "significant_wave_height", self._as_bretschneider.significant_wave_height)
         object.__setattr__(self, "peak_period", self._as_bretschneider.peak_period)
 
