@@ -487,3 +487,11 @@ def test_a_buoy_tells_the_direction_where_the_case_does_not(tmp_path: Path) -> N
     assert np.rad2deg(given.components.wave_heading[0]) == pytest.approx(10)
     with pytest.raises(PanelsimError, match="ship_heading_deg"):
         _ = case_of(tmp_path, METEOROLOGY + LATE).seaway
+
+
+def test_a_sea_of_very_many_components_is_warned_of(tmp_path: Path) -> None:
+    keys = f"{RANDOM}sea_state = 6\nwave_heading_deg = 0\n"
+    grid = "frequencies = {{ start = 0.2, stop = 2.0, step = {} }}\n"
+    told = [case_of(tmp_path, keys + grid.format(step)).warnings() for step in (0.0005, 0.01)]
+    assert ["3601 components" in warning for warning in told[0]].count(True) == 1
+    assert not any("components" in warning for warning in told[1])

@@ -224,6 +224,30 @@ def test_notes_tell_of_a_sea_that_repeats_for_the_ship_not_for_a_buoy(
         assert sum(told in note for note in notes) == 1, notes
 
 
+def test_a_record_has_no_other_phases(
+    halifax: Ship, halifax_database: HydroDatabase, springs: Supplementary
+) -> None:
+    """What is told of a random sea that beats, is not told of the same waves from a file."""
+    sea = RandomSeaway(Bretschneider(7.5, 15.0), GRID, np.deg2rad(30), 1)
+    told = [
+        any(
+            "other phases" in note
+            for note in run_notes(
+                sea.components,
+                halifax_database,
+                springs,
+                speed=SPEED,
+                time_step=0.2,
+                length=900.0,
+                model="linear",
+                seeded=seeded,
+            )
+        )
+        for seeded in (True, False)
+    ]
+    assert told == [True, False]
+
+
 def test_one_wave_is_told_as_a_wave(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
