@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-from panelsim.conventions import RULES, STRETCHINGS, panel_triangles, rotation_to_earth
+from panelsim.conventions import CUT_RULES, STRETCHINGS, panel_triangles, rotation_to_earth
 from panelsim.errors import PanelsimError
 from panelsim.hull.immersed import immersed_part
 from panelsim.hull.panel_mesh import PanelMesh
@@ -130,7 +130,7 @@ def worst_difference(load: np.ndarray, reference: np.ndarray, panels: PanelTable
 
 @pytest.mark.parametrize("waves", SEAS)
 @pytest.mark.parametrize("stretching", STRETCHINGS)
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", CUT_RULES)
 @pytest.mark.parametrize("hull", HULLS)
 def test_kernel_agrees_with_its_twin_at_any_attitude(
     hull: str, rule: str, stretching: str, waves: str
@@ -146,7 +146,7 @@ def test_kernel_agrees_with_its_twin_at_any_attitude(
     np.testing.assert_array_equal(load[-1], 0.0)  # out of the water
 
 
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", CUT_RULES)
 @pytest.mark.parametrize("stretching", STRETCHINGS)
 def test_vertices_exactly_on_the_surface_count_as_dry_and_do_no_harm(stretching: str, rule: str) -> None:
     """The bottom, then the deck of the box exactly at the calm surface, then the surface half way."""
@@ -168,7 +168,7 @@ def test_every_pattern_of_wet_and_dry_corners_of_one_panel() -> None:
     for heights in itertools.product([-1.0, 0.0, 0.7], repeat=4):
         corners = np.column_stack([[0, 2, 2.2, 0], [0, 0.1, 1.5, 1], heights])
         panels, pose = panel_tables(corners, np.array([[0, 1, 2, 3]])), np.zeros((1, 8))
-        for stretching, rule in itertools.product(STRETCHINGS, RULES):
+        for stretching, rule in itertools.product(STRETCHINGS, CUT_RULES):
             given = {"stretching": stretching, "rule": rule, **HEADS}
             load = wetted_surface_load(panels, sea(0), pose, **given)
             reference = oracle.wetted_surface_load(panels, sea(0), pose, **given)
@@ -187,13 +187,13 @@ def test_a_centre_that_is_alone_wet_or_alone_dry_is_found(phase: float, alone: s
     pose[0, :2] = phase, 1.0
     pose[0, 4] = 0.1 if alone == "wet" else -0.1  # ζ is 0 at the corners, ±0.3 m at the centre
     given = {"stretching": stretching, **HEADS}
-    lift = {rule: wetted_surface_load(panels, RIPPLE, pose, rule=rule, **given)[0, 2] for rule in RULES}
+    lift = {rule: wetted_surface_load(panels, RIPPLE, pose, rule=rule, **given)[0, 2] for rule in CUT_RULES}
     exact = oracle.subdivided_load(panels, RIPPLE, pose, levels=6, **given)[0, 2]
     print(f"{alone}, {stretching}: {lift}, exact {exact:.3f}")
     assert lift["vertex"] == pytest.approx(0.0 if alone == "wet" else 0.4, abs=0.08)
     # The pressure is far from quadratic over half a wave: only the side it errs to is certain.
     assert abs(lift["vertex+centre"] - exact) < 0.6 * abs(lift["vertex"] - exact)
-    for rule in RULES:
+    for rule in CUT_RULES:
         reference = oracle.wetted_surface_load(panels, RIPPLE, pose, rule=rule, **given)
         assert lift[rule] == pytest.approx(reference[0, 2], abs=1e-14)
 
@@ -229,7 +229,7 @@ def test_panels_skipped_as_surely_dry_are_dry(stretching: str) -> None:
     np.testing.assert_allclose(load, reference, atol=1e-13)
 
 
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", CUT_RULES)
 def test_calm_water_lifts_the_surface_of_four_triangles_about_the_centre(rule: str) -> None:
     """A twisted panel, wet, cut and cut again: the load of the fan, which neither split has."""
     corners = np.column_stack([[0, 2, 2.2, 0], [0, 0.1, 1.5, 1], [-1.0, -0.1, -1.4, 0.5]])
@@ -257,7 +257,7 @@ def test_calm_water_load_is_that_of_the_independent_hydrostatics() -> None:
         centroid = rotation_to_earth(roll * DEG, pitch * DEG, 0.0).T @ part.volume_moment
         weight = WATER["water_density"] * WATER["gravity"]
         expected = weight * np.concatenate([part.volume * up, np.cross(centroid, up)])
-        for rule in RULES:
+        for rule in CUT_RULES:
             load = wetted_surface_load(panels, sea(0), pose, waterline=loaded.waterline, rule=rule, **WATER)[
                 0
             ]
@@ -266,7 +266,7 @@ def test_calm_water_load_is_that_of_the_independent_hydrostatics() -> None:
             assert np.abs(load - expected)[3:].max() < 1e-10 * weight * part.volume * 60.0
 
 
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", CUT_RULES)
 @pytest.mark.parametrize("waves", ["19 waves", "Stokes wave"])
 def test_same_input_same_bits_alone_or_in_a_batch(waves: str, rule: str) -> None:
     panels, sea, given = ship(), SEAS[waves], {"waterline": -1.5, "rule": rule, **WATER}
@@ -285,13 +285,13 @@ def test_other_meshes_and_seas_do_not_compile_the_kernel_again() -> None:
     for waves in (sea(1), stokes_wave()):
         wetted_surface_load(box(), waves, POSES, **given)
     compiled = impl.get_runtime().get_num_compiled_functions()
-    for stretching, rule in itertools.product(STRETCHINGS, RULES):
+    for stretching, rule in itertools.product(STRETCHINGS, CUT_RULES):
         for waves in (sea(37), stokes_wave()):
             wetted_surface_load(ship(), waves, POSES[:2], stretching=stretching, rule=rule, **given)
     assert impl.get_runtime().get_num_compiled_functions() == compiled
 
 
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", CUT_RULES)
 @pytest.mark.parametrize("stretching", STRETCHINGS)
 def test_one_small_panel_of_a_stokes_wave_agrees_with_the_twin_in_every_pattern(
     stretching: str, rule: str

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from panelsim.conventions import RULES, panel_triangles
+from panelsim.conventions import CUT_RULES, panel_triangles
 from panelsim.errors import PanelsimError
 from panelsim.kernels import tables
 from panelsim.kernels.tables import panel_tables, wave_tables
@@ -27,14 +27,14 @@ def load_of_linear_pressure(
     return (built.points @ gradient + offset) @ built.response[rule]
 
 
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", CUT_RULES)
 def test_uniform_pressure_on_a_closed_surface_gives_no_load(rule: str) -> None:
     built = panel_tables(crooked_box(), BOX_PANELS)
     assert np.abs(built.response[rule]).max() > 1.0
     np.testing.assert_allclose(built.response[rule].sum(axis=0), 0.0, atol=ROUND_OFF)
 
 
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", CUT_RULES)
 def test_hydrostatic_pressure_gives_volume_and_centre_of_the_box(rule: str) -> None:
     built = panel_tables(BOX, BOX_PANELS)
     volume, (x, y, _) = SIZE.prod(), LOW + SIZE / 2
@@ -42,7 +42,7 @@ def test_hydrostatic_pressure_gives_volume_and_centre_of_the_box(rule: str) -> N
     np.testing.assert_allclose(load, volume * np.array([0, 0, 1, y, -x, 0]), atol=100 * ROUND_OFF)
 
 
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", CUT_RULES)
 def test_any_linear_pressure_acts_as_its_gradient_on_the_centroid_of_a_crooked_box(rule: str) -> None:
     """Divergence theorem: the force is -V grad p, its moment that at the centroid of the volume."""
     built = panel_tables(crooked_box(), BOX_PANELS)
@@ -139,7 +139,7 @@ def test_points_are_ordered_by_height_and_filled_up_with_inert_ones() -> None:
     np.testing.assert_allclose(built.points[16:22], centres, atol=ROUND_OFF)
     order = np.argsort(vertices[BOX_PANELS].mean(axis=1)[:, 2])
     np.testing.assert_array_equal(built.points[built.panels], vertices[BOX_PANELS[order]])
-    for rule in RULES:
+    for rule in CUT_RULES:
         assert built.blocks[rule].shape == (3, 10, 8)
         np.testing.assert_array_equal(built.response[rule][np.r_[8, inert]], 0.0)
         np.testing.assert_array_equal(built.blocks[rule][1, :3, 0], built.points[8])

@@ -2,12 +2,13 @@
 
 A panel is four triangles about its centre, and a pressure is linear on each of them. Force and moment are
 then linear in the pressures at the points, F = Σ p_v G_v. The response G of a point follows from the
-geometry alone and is built once. Two rules say what the points are:
+geometry alone and is built once. Three rules say what the points are:
 
 "vertex": the corners of the panels; the centre has the mean of its corners.
 "vertex+centre": the centres too. What the centre has above the mean of its corners bends the pressure over
 the whole panel, so it acts at the centre on more area than the triangles give it: so much that the corners
 have 1/12 of a panel each and the centre the rest: exact for quadratic pressure on triangles, parallelograms.
+"panel": the centres alone, for whole panels that are wet or dry by them, as in TM 2003-190 section 6.
 """
 
 from collections.abc import Mapping
@@ -40,13 +41,15 @@ class PanelTables:
 
     `points` (P, 3) [m]; `response`, of each rule (P, 6): force [m2] and moment about the origin [m3] for
     unit pressure at the point; `reach` (P,) [m]: the distance to the farthest point of the same panel;
-    `panels` (N, 4): point indices, counter-clockwise seen from the water.
+    `panels` (N, 4): point indices, counter-clockwise seen from the water; `panel_order` (N,): which panel of
+    the mesh each of them is.
     """
 
     points: FloatArray
     response: Mapping[str, FloatArray]
     reach: FloatArray
     panels: NDArray[np.int32]
+    panel_order: IntArray
     first_centre: int
 
     @cached_property
@@ -117,6 +120,7 @@ def panel_tables(vertices: FloatArray, panels: IntArray) -> PanelTables:
         response={rule: _frozen(_responses(points, ordered_panels, len(lower), rule)) for rule in RULES},
         reach=_frozen(_reach(points, ordered_panels, len(lower))),
         panels=_frozen(ordered_panels),
+        panel_order=_frozen(panel_order),
         first_centre=len(lower),
     )
 
@@ -217,7 +221,8 @@ def _responses(points: FloatArray, panels: NDArray[np.int32], first_centre: int,
     """Load for unit pressure at each point: (P, 6), about the origin.
 
     A triangle of area vector nA gives each of its corners -nA/3 for the force and
-    -((x_v + x_a + x_b + x_c)/12) × nA for the moment, the exact first moments of a linear pressure.
+    -((x_v + x_a + x_b + x_c)/12) × nA for the moment, the exact first moments of a linear pressure. By the rule
+    "panel" the pressure at the centre is that of the whole panel.
     """
     centre = first_centre + np.arange(len(panels))
     triangles = np.stack(
@@ -226,6 +231,10 @@ def _responses(points: FloatArray, panels: NDArray[np.int32], first_centre: int,
     x = points[triangles]
     area_vector = 0.5 * np.cross(x[:, :, 1] - x[:, :, 0], x[:, :, 2] - x[:, :, 0])
     response = np.zeros((len(points), 6))
+    if rule == "panel":
+        moment = -np.cross(x.mean(axis=2), area_vector).sum(axis=1)
+        response[centre] = np.concatenate([-area_vector.sum(axis=1), moment], axis=1)
+        return response
     for corner in range(3):
         arm = (x[:, :, corner] + x.sum(axis=2)) / 12.0
         load = np.concatenate([-area_vector / 3.0, -np.cross(arm, area_vector)], axis=-1)

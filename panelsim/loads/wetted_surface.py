@@ -1,6 +1,6 @@
 """Nonlinear buoyancy and incident-wave load: pressure over the hull that is wet at this instant."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -31,8 +31,8 @@ class WettedSurface:
     def __init__(
         self,
         ship: Ship,
-        components: WaveComponents,
-        speed: float,
+        components: Sequence[WaveComponents],
+        speed: Sequence[float],
         *,
         stretching: str = "wheeler",
         method: str = "auto",
@@ -41,38 +41,45 @@ class WettedSurface:
         require_rule(rule)
         self._integrate = _method(method)
         self._panels = panel_tables(ship.vertices, ship.mesh.panels)
-        self._waves = wave_tables(
-            components.amplitude,
-            components.wavenumber(ship.gravity),
-            components.wave_heading,
-            components.encounter_frequency(speed, ship.gravity),
-            components.phase,
-            second_order=components.second_order,
-        )
+        self._seas = [
+            wave_tables(
+                sea.amplitude,
+                sea.wavenumber(ship.gravity),
+                sea.wave_heading,
+                sea.encounter_frequency(u, ship.gravity),
+                sea.phase,
+                second_order=sea.second_order,
+            )
+            for sea, u in zip(components, speed, strict=True)
+        ]
         self._ship = ship
         self._stretching = stretching
         self._rule = rule
-        self._pose = np.empty((1, 8))
 
     def in_ship_axes(self, instant: Instant) -> FloatArray:
-        """Force and moment (6,) about the CG in ship axes [N, N m]."""
-        pose = self._pose
-        pose[0, 0] = instant.time
-        pose[0, 1] = instant.wave_factor
-        pose[0, 2:] = instant.displacement
-        return self._integrate(
-            self._panels,
-            self._waves,
-            pose,
-            waterline=self._ship.waterline,
-            water_density=self._ship.water_density,
-            gravity=self._ship.gravity,
-            stretching=self._stretching,
-            rule=self._rule,
-        )[0]
+        """Force and moment (B, 6) about the CG in ship axes [N, N m]."""
+        poses = np.empty((len(self._seas), 8))
+        poses[:, 0] = instant.time
+        poses[:, 1] = instant.wave_factor
+        poses[:, 2:] = instant.displacement
+        return np.concatenate(
+            [
+                self._integrate(
+                    self._panels,
+                    sea,
+                    pose[None],
+                    waterline=self._ship.waterline,
+                    water_density=self._ship.water_density,
+                    gravity=self._ship.gravity,
+                    stretching=self._stretching,
+                    rule=self._rule,
+                )
+                for sea, pose in zip(self._seas, poses, strict=True)
+            ]
+        )
 
     def evaluate(self, instant: Instant) -> FloatArray:
-        """Load (6,) in translating earth axes, moments conjugate to the yaw-pitch-roll angles."""
+        """Load (B, 6) in translating earth axes, moments conjugate to the yaw-pitch-roll angles."""
         return load_to_earth(self.in_ship_axes(instant), instant.displacement)
 
 
@@ -95,8 +102,8 @@ def pressure_force(
     displacement = np.asarray(displacement, dtype=float)
     if displacement.shape != (6,) or not np.isfinite(displacement).all():
         raise PanelsimError("The displacement is not six finite numbers", got=displacement)
-    load = WettedSurface(ship, seaway.components, speed, stretching=stretching, method=method)
-    return load.in_ship_axes(Instant(time, 1.0, displacement, np.zeros(6)))
+    load = WettedSurface(ship, [seaway.components], [speed], stretching=stretching, method=method)
+    return load.in_ship_axes(Instant(time, 1.0, displacement[None], np.zeros((1, 6))))[0]
 
 
 def _method(name: str) -> Callable[..., FloatArray]:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from panelsim.conventions import RULES, panel_triangles
+from panelsim.conventions import CUT_RULES, panel_triangles
 from panelsim.kernels import oracle
 from panelsim.kernels.pressure import wetted_surface_load
 from panelsim.kernels.tables import PanelTables, WaveTables, panel_tables, wave_tables
@@ -72,11 +72,11 @@ def subdivided(panels: PanelTables, levels: int) -> PanelTables:
 
 def test_rule_error_on_one_hull_falls_with_the_panel_size() -> None:
     """Panels of half the size each time; the reference has the same flat facets, split further."""
-    errors: dict[str, list[np.ndarray]] = {rule: [] for rule in RULES}
+    errors: dict[str, list[np.ndarray]] = {rule: [] for rule in CUT_RULES}
     for n in (3, 6, 12, 24):
         panels = ship(n)
         reference = wetted_surface_load(subdivided(panels, 2), sea(), STATES, **WATER)
-        for rule in RULES:
+        for rule in CUT_RULES:
             load = wetted_surface_load(panels, sea(), STATES, rule=rule, **WATER)
             errors[rule].append(relative_error(load, reference, panels))
     order = {}
@@ -154,7 +154,7 @@ def test_rule_errors_on_the_medium_mesh_of_halifax(halifax: Ship, count: int, ve
         assert error.max() < limit
 
 
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", CUT_RULES)
 def test_upright_halifax_in_head_seas_feels_no_sway_roll_or_yaw(halifax: Ship, rule: str) -> None:
     panels = panel_tables(halifax.vertices, halifax.mesh.panels)
     wave = storm(19)

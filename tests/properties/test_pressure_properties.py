@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from panelsim.conventions import RULES, STRETCHINGS, panel_triangles, rotation_to_earth
+from panelsim.conventions import CUT_RULES, STRETCHINGS, panel_triangles, rotation_to_earth
 from panelsim.kernels.pressure import wetted_surface_load
 from panelsim.kernels.tables import WaveTables, panel_tables, wave_tables
 
@@ -63,7 +63,7 @@ def random_poses(count: int) -> np.ndarray:
 POSES = random_poses(8)
 
 
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", CUT_RULES)
 @pytest.mark.parametrize("stretching", STRETCHINGS)
 def test_mirrored_ship_in_mirrored_waves_feels_the_mirrored_load(stretching: str, rule: str) -> None:
     mirrored_hull = panel_tables(VERTICES * [1, -1, 1], PANELS[:, ::-1])
@@ -77,7 +77,7 @@ def test_mirrored_ship_in_mirrored_waves_feels_the_mirrored_load(stretching: str
     assert (np.abs(mirrored * flip - load) < 10 * ROUND_OFF).all()
 
 
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", CUT_RULES)
 def test_upright_symmetric_ship_in_head_seas_feels_no_sway_roll_or_yaw(rule: str) -> None:
     vertices = np.vstack([VERTICES * [1, 1 if side > 0 else -1, 1] for side in (1, -1)])
     both_halves = panel_tables(vertices, np.vstack([PANELS, PANELS[:, ::-1] + len(VERTICES)]))
@@ -143,7 +143,7 @@ def volume_under_calm_water(pose: np.ndarray) -> float:
     return float(np.einsum("tx,tx->", a, np.cross(b, c)) / 6)
 
 
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", CUT_RULES)
 @pytest.mark.parametrize("stretching", STRETCHINGS)
 def test_calm_water_lifts_the_immersed_volume_and_nothing_else(stretching: str, rule: str) -> None:
     calm = wave_tables([], [], [], [], [])
@@ -169,7 +169,7 @@ def test_fully_immersed_hull_in_calm_water_does_not_care_how_deep() -> None:
     assert (np.abs(wetted_surface_load(HULL, calm, deeper, **WATER) - load) < 20 * ROUND_OFF).all()
 
 
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", CUT_RULES)
 def test_load_changes_smoothly_as_the_ship_heaves_through_the_surface(rule: str) -> None:
     """Exact wetting: the heave force over 2 mm steps has no jump as panel after panel goes under."""
     poses = np.zeros((301, 8))
@@ -183,7 +183,7 @@ def test_load_changes_smoothly_as_the_ship_heaves_through_the_surface(rule: str)
     assert residue < 2e-5
 
 
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", CUT_RULES)
 @pytest.mark.parametrize("stretching", STRETCHINGS)
 @pytest.mark.parametrize("heel", [0.0, 0.3])
 def test_load_is_continuous_where_points_pass_the_surface(stretching: str, rule: str, heel: float) -> None:
