@@ -20,8 +20,8 @@ KNOT = 1852.0 / 3600.0  # m/s
 # How the wave pressure reaches up to the instantaneous surface: Wheeler's stretching, or not at all.
 STRETCHINGS = ("wheeler", "none")
 
-# Where the pressure of a panel is taken. On panels cut at the water: at the corners, or at the centre as well.
-# On whole panels, each wet or dry by its centre, as in TM 2003-190 section 6: there.
+# Where the pressure of a panel is taken. With panels cut at the water: at the corners, or at the centre too.
+# With whole panels, each wet or dry by its centre, as in TM 2003-190 section 6: there.
 CUT_RULES = ("vertex", "vertex+centre")
 RULES = (*CUT_RULES, "panel")
 

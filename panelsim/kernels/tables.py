@@ -221,8 +221,8 @@ def _responses(points: FloatArray, panels: NDArray[np.int32], first_centre: int,
     """Load for unit pressure at each point: (P, 6), about the origin.
 
     A triangle of area vector nA gives each of its corners -nA/3 for the force and
-    -((x_v + x_a + x_b + x_c)/12) × nA for the moment, the exact first moments of a linear pressure. By the rule
-    "panel" the pressure at the centre is that of the whole panel.
+    -((x_v + x_a + x_b + x_c)/12) × nA for the moment, the exact first moments of a linear pressure. By the
+    rule "panel" the pressure at the centre is that of the whole panel.
     """
     centre = first_centre + np.arange(len(panels))
     triangles = np.stack(
