@@ -16,7 +16,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from panelsim.conventions import KNOT, STANDARD_GRAVITY, FloatArray, rotation_to_earth
+from panelsim.conventions import CUT_RULES, KNOT, STANDARD_GRAVITY, FloatArray, rotation_to_earth
 from panelsim.kernels import runtime
 from panelsim.kernels.tables import PanelTables, WaveTables, panel_tables, wave_tables
 from panelsim.seaway.direction.spreading import CosineSquared
@@ -29,7 +29,7 @@ from panelsim.ship.ship import Ship
 ti = runtime.import_taichi()
 
 C_SOURCE = Path(__file__).with_name("pressure_direct.c")
-C_FLAGS = ("-O3", "-march=native", "-ffast-math", "-mprefer-vector-width=512", "-shared", "-fPIC")
+C_FLAGS = ("-O3", "-march=native", "-ffast-math", "-mprefer-vector-width=512", "-fPIC")
 
 # Components by count: frequencies [rad/s], and the degrees between directions in short-crested seas.
 SEAS: dict[int, tuple[FrequencyChoice, float | None]] = {
@@ -100,23 +100,19 @@ class Setting:
         return poses
 
 
-def project_method(kernel: Callable[..., FloatArray], setting: Setting, **options: str) -> Evaluate:
-    """One of panelsim's own methods."""
-    return partial(
-        kernel,
+def own_method(method: str, rule: str, setting: Setting) -> Evaluate:
+    """One of panelsim's own."""
+    with runtime.interrupts_held_back():
+        from panelsim.kernels.pressure import PressureIntegral
+    return PressureIntegral(
         setting.panels,
-        setting.waves,
+        [setting.waves],
         waterline=setting.ship.waterline,
         water_density=DENSITY,
         gravity=STANDARD_GRAVITY,
-        **options,
+        rule=rule,
+        method=method,
     )
-
-
-def direct_method(rule: str, setting: Setting) -> Evaluate:
-    with runtime.interrupts_held_back():
-        from panelsim.kernels.pressure import wetted_surface_load
-    return project_method(wetted_surface_load, setting, rule=rule)
 
 
 def numpy_method(setting: Setting) -> Evaluate:
@@ -194,8 +190,11 @@ def _above_water(poses: FloatArray, setting: Setting) -> FloatArray:
 def c_library() -> tuple[ctypes.CDLL, list[str]]:
     """The C sum, compiled for this processor, and the packed functions it takes from the C library."""
     with TemporaryDirectory() as folder:
-        target = Path(folder) / "pressure_direct.so"
-        subprocess.run(["gcc", *C_FLAGS, "-o", target, C_SOURCE, "-lm"], check=True)
+        compiled, target = Path(folder) / "pressure_direct.o", Path(folder) / "pressure_direct.so"
+        subprocess.run(["gcc", *C_FLAGS, "-c", "-o", compiled, C_SOURCE], check=True)
+        # Linked without -ffast-math, which would have the whole process read the smallest numbers as zero:
+        # scipy's search trees crash then.
+        subprocess.run(["gcc", "-shared", "-o", target, compiled, "-lm"], check=True)
         packed = sorted({name.decode() for name in re.findall(rb"_ZGV\w+_(?:cos|exp)", target.read_bytes())})
         return ctypes.CDLL(str(target)), packed
 
@@ -220,8 +219,9 @@ C_SUM = "C, plain"
 PLAIN: dict[str, Method] = {C_SUM: c_method, "NumPy, plain": numpy_method, "Taichi, naive": naive_method}
 # One line for each method of the project: its name and how it is made ready for a setting.
 METHODS: dict[str, Method] = PLAIN | {
-    "direct, vertex": partial(direct_method, "vertex"),
-    "direct, vertex + centre": partial(direct_method, "vertex+centre"),
+    f"{method}, {rule.replace('+', ' + ')}": partial(own_method, method, rule)
+    for method in ("direct", "grid")
+    for rule in CUT_RULES
 }
 
 

@@ -38,6 +38,14 @@ def test_the_c_sum_is_the_numpy_sum(benchmark: ModuleType, methods: ModuleType) 
     assert 0.0 < apart[methods.C_SUM] < 1e-11
 
 
+def test_the_c_sum_leaves_the_arithmetic_of_the_process_alone(methods: ModuleType) -> None:
+    """Linked with -ffast-math it would have smallest numbers read as zero everywhere: search trees crash."""
+    if methods.C_SUM not in methods.available():
+        pytest.skip("no gcc")
+    methods.c_library()
+    assert np.float64(1e-310) > 0.0
+
+
 def test_the_naive_loop_is_the_numpy_sum_and_the_kernel_has_another_rule(
     benchmark: ModuleType, methods: ModuleType
 ) -> None:

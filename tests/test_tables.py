@@ -128,17 +128,20 @@ def test_the_bend_of_the_pressure_acts_at_the_centre() -> None:
     np.testing.assert_allclose(response.sum(axis=0), built.response["vertex"].sum(axis=0), atol=ROUND_OFF)
 
 
-def test_points_are_ordered_by_height_and_filled_up_with_inert_ones() -> None:
+def test_points_are_ordered_by_height_and_filled_up_with_copies() -> None:
     vertices = np.vstack([crooked_box(), [[0.5, 3.0, 5.0]]])
     built = panel_tables(vertices, BOX_PANELS)
     assert built.points.shape == (24, 3) and built.first_centre == 16
     assert (np.diff(built.points[:16, 2]) >= 0).all() and (np.diff(built.points[16:, 2]) >= 0).all()
     inert = np.r_[9:16, 22:24]
-    np.testing.assert_array_equal(built.points[inert, 2], tables.INERT_POINT_HEIGHT)
+    np.testing.assert_array_equal(built.points[inert], built.points[np.repeat([8, 21], [7, 2])])
+    np.testing.assert_array_equal(built.reach[inert], 0.0)
+    assert not np.isin(built.panels, inert).any()
     centres = built.points[built.panels].mean(axis=1)
     np.testing.assert_allclose(built.points[16:22], centres, atol=ROUND_OFF)
     order = np.argsort(vertices[BOX_PANELS].mean(axis=1)[:, 2])
     np.testing.assert_array_equal(built.points[built.panels], vertices[BOX_PANELS[order]])
+    np.testing.assert_array_equal(built.panel_order, order)
     for rule in CUT_RULES:
         assert built.blocks[rule].shape == (3, 10, 8)
         np.testing.assert_array_equal(built.response[rule][np.r_[8, inert]], 0.0)

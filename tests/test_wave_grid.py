@@ -305,9 +305,9 @@ def bound_at(
     line: ti.template(),
 ):
     for _ in range(1):
-        inside = fill_grid(components, tables, scratch, 0.0, 0.0, 2.0, 1.5, terms, line)
+        inside = fill_grid(components, tables, 0, scratch, 0.0, 0.0, 2.0, 1.5, terms, line)
         out[0] = inside
-        out[1] = elevation_bound(tables, Lanes(xy[0]), Lanes(xy[1]), inside, 1.5, line)
+        out[1] = elevation_bound(tables, 0, Lanes(xy[0]), Lanes(xy[1]), inside, 1.5, line)
 
 
 @pytest.mark.parametrize("spread", [0.0, 1.2])

@@ -27,6 +27,7 @@ WAVE_ROWS = 4
 def fill_grid(
     components: ti.template(),
     tables: ti.template(),
+    base,
     scratch: ti.template(),
     x,
     y,
@@ -40,28 +41,29 @@ def fill_grid(
     Splines lie in the hull of their coefficients, so no elevation that the grid gives within its box is
     higher than the largest sum of the coefficients of one node.
     """
-    _set_waves(components, tables, scratch, x, y, time, wave_factor)
+    _set_waves(components, tables, base, scratch, x, y, time, wave_factor)
     if ti.static(line):
-        _take_waves_as_modes(tables, scratch, terms)
+        _take_waves_as_modes(tables, base, scratch, terms)
     else:
-        _spread_waves(tables, scratch, terms)
-        _sum_along_y(tables, scratch, terms)
-    _sum_along_x(tables, scratch, terms)
-    return _largest_sum(tables, scratch, terms)
+        _spread_waves(tables, base, scratch, terms)
+        _sum_along_y(tables, base, scratch, terms)
+    _sum_along_x(tables, base, scratch, terms)
+    return _largest_sum(tables, base, scratch, terms)
 
 
 @ti.func
 def _set_waves(
-    components: ti.template(), tables: ti.template(), scratch: ti.template(), x, y, time, wave_factor
+    components: ti.template(), tables: ti.template(), base, scratch: ti.template(), x, y, time, wave_factor
 ):
     """Phase and height of each wave at the centre of the box, and its complex amplitude over the transfer."""
-    for b in range(components.shape[0]):
-        turns = eight(components, b, at.KX) * (x + number(tables, at.CENTRE_X))
-        turns += eight(components, b, at.KY) * (y + number(tables, at.CENTRE_Y))
-        turns -= eight(components, b, at.FREQUENCY) * time + eight(components, b, at.LEAD)
+    first = whole(tables, base, at.FIRST_BLOCK)
+    for b in range(whole(tables, base, at.BLOCKS)):
+        turns = eight(components, first + b, at.KX) * (x + number(tables, base, at.CENTRE_X))
+        turns += eight(components, first + b, at.KY) * (y + number(tables, base, at.CENTRE_Y))
+        turns -= eight(components, first + b, at.FREQUENCY) * time + eight(components, first + b, at.LEAD)
         turns -= ti.floor(turns)
-        crest = eight(components, b, at.AMPLITUDE) * wave_factor
-        gained = crest * eight(components, b, at.GAIN)
+        crest = eight(components, first + b, at.AMPLITUDE) * wave_factor
+        gained = crest * eight(components, first + b, at.GAIN)
         scratch[b * WAVE_ROWS + PHASE] = turns
         scratch[b * WAVE_ROWS + CREST] = crest
         scratch[b * WAVE_ROWS + REAL] = cos_of_turns(turns) * gained
@@ -69,11 +71,11 @@ def _set_waves(
 
 
 @ti.func
-def _take_waves_as_modes(tables: ti.template(), scratch: ti.template(), terms: ti.template()):
+def _take_waves_as_modes(tables: ti.template(), base, scratch: ti.template(), terms: ti.template()):
     """On a line each wave is a mode of its own."""
     wide = ti.static(terms // LANES)
-    psi, rows = whole(tables, at.SPREADING) + at.PSI, whole(tables, at.AT_ROWS)
-    for m in range(whole(tables, at.MODES_X)):
+    psi, rows = whole(tables, base, at.SPREADING) + at.PSI, whole(tables, base, at.AT_ROWS)
+    for m in range(whole(tables, base, at.MODES_X)):
         wave, lane = (m >> LANE_BITS) * WAVE_ROWS, m & (LANES - 1)
         depth = row_of(tables, psi + m * (at.PSI + wide), terms)
         _store(scratch, rows + 2 * wide * m, depth * scratch[wave + REAL][lane], terms)
@@ -81,14 +83,14 @@ def _take_waves_as_modes(tables: ti.template(), scratch: ti.template(), terms: t
 
 
 @ti.func
-def _spread_waves(tables: ti.template(), scratch: ti.template(), terms: ti.template()):
+def _spread_waves(tables: ti.template(), base, scratch: ti.template(), terms: ti.template()):
     """Add each wave to the 8 x 8 modes about it."""
     wide = ti.static(terms // LANES)
-    modes, count_y = whole(tables, at.AT_MODES), whole(tables, at.MODES_Y)
-    for i in range(2 * wide * whole(tables, at.MODES_X) * count_y):
+    modes, count_y = whole(tables, base, at.AT_MODES), whole(tables, base, at.MODES_Y)
+    for i in range(2 * wide * whole(tables, base, at.MODES_X) * count_y):
         scratch[modes + i] = Lanes(0.0)
-    first, stride = whole(tables, at.SPREADING), at.PSI + wide
-    for m in range((whole(tables, at.SUMS_X) - first) // stride):
+    first, stride = whole(tables, base, at.SPREADING), at.PSI + wide
+    for m in range((whole(tables, base, at.SUMS_X) - first) // stride):
         table, wave, lane = first + m * stride, (m >> LANE_BITS) * WAVE_ROWS, m & (LANES - 1)
         depth = row_of(tables, table + at.PSI, terms)
         real, imaginary = depth * scratch[wave + REAL][lane], depth * scratch[wave + IMAGINARY][lane]
@@ -107,11 +109,19 @@ def _spread_waves(tables: ti.template(), scratch: ti.template(), terms: ti.templ
 
 
 @ti.func
-def _sum_along_y(tables: ti.template(), scratch: ti.template(), terms: ti.template()):
+def _sum_along_y(tables: ti.template(), base, scratch: ti.template(), terms: ti.template()):
     """Sum the modes along y at the nodes of that axis, two nodes ±y at a time."""
     wide = ti.static(terms // LANES)
-    modes, count_x, count_y = whole(tables, at.AT_MODES), whole(tables, at.MODES_X), whole(tables, at.MODES_Y)
-    rows, nodes, sums = whole(tables, at.AT_ROWS), whole(tables, at.NODES_Y), whole(tables, at.SUMS_Y)
+    modes, count_x, count_y = (
+        whole(tables, base, at.AT_MODES),
+        whole(tables, base, at.MODES_X),
+        whole(tables, base, at.MODES_Y),
+    )
+    rows, nodes, sums = (
+        whole(tables, base, at.AT_ROWS),
+        whole(tables, base, at.NODES_Y),
+        whole(tables, base, at.SUMS_Y),
+    )
     zero = ti.Vector.zero(ti.f64, terms)
     for q in range(count_x):
         for j in range((nodes + 1) // 2):
@@ -135,11 +145,19 @@ def _sum_along_y(tables: ti.template(), scratch: ti.template(), terms: ti.templa
 
 
 @ti.func
-def _sum_along_x(tables: ti.template(), scratch: ti.template(), terms: ti.template()):
+def _sum_along_x(tables: ti.template(), base, scratch: ti.template(), terms: ti.template()):
     """Sum the real part along x at the nodes, four pairs ±x at a time."""
     wide = ti.static(terms // LANES)
-    count, rows, sums = whole(tables, at.MODES_X), whole(tables, at.AT_ROWS), whole(tables, at.SUMS_X)
-    nodes_x, nodes_y, out = whole(tables, at.NODES_X), whole(tables, at.NODES_Y), whole(tables, at.AT_NODES)
+    count, rows, sums = (
+        whole(tables, base, at.MODES_X),
+        whole(tables, base, at.AT_ROWS),
+        whole(tables, base, at.SUMS_X),
+    )
+    nodes_x, nodes_y, out = (
+        whole(tables, base, at.NODES_X),
+        whole(tables, base, at.NODES_Y),
+        whole(tables, base, at.AT_NODES),
+    )
     half = (nodes_x + 1) // 2
     zero = ti.Vector.zero(ti.f64, terms)
     for group in range((half + NODES_TOGETHER - 1) // NODES_TOGETHER):
@@ -167,13 +185,16 @@ def _sum_along_x(tables: ti.template(), scratch: ti.template(), terms: ti.templa
 
 
 @ti.func
-def _largest_sum(tables: ti.template(), scratch: ti.template(), terms: ti.template()):
+def _largest_sum(tables: ti.template(), base, scratch: ti.template(), terms: ti.template()):
     """Largest sum of the coefficients of one node: at the surface every depth polynomial is 1.
 
     In a loop of its own: a sum over the terms beside the sums along x would have them packed in pairs.
     """
     wide = ti.static(terms // LANES)
-    nodes, first = whole(tables, at.NODES_X) * whole(tables, at.NODES_Y), whole(tables, at.AT_NODES)
+    nodes, first = (
+        whole(tables, base, at.NODES_X) * whole(tables, base, at.NODES_Y),
+        whole(tables, base, at.AT_NODES),
+    )
     bound = -ti.math.inf
     for n in range(nodes):
         bound = ti.max(bound, row_of(scratch, first + wide * n, terms).sum())
@@ -186,13 +207,13 @@ def eight(blocks: ti.template(), b, column):
 
 
 @ti.func
-def number(tables: ti.template(), place):
-    return tables[place // LANES][place % LANES]
+def number(tables: ti.template(), base, place):
+    return tables[base + place // LANES][place % LANES]
 
 
 @ti.func
-def whole(tables: ti.template(), place):
-    return ti.cast(number(tables, place), ti.i32)
+def whole(tables: ti.template(), base, place):
+    return ti.cast(number(tables, base, place), ti.i32)
 
 
 @ti.func

@@ -117,14 +117,15 @@ def _evaluate(
     """Fill and evaluate, each as often as asked for, which is for timing them apart."""
     ti.loop_config(serialize=True)  # the blocks share the scratch
     for _ in range(1):
+        base = 0
         for _fill in range(fills):
             x, y, time, factor = pose[POSE_X], pose[POSE_Y], pose[TIME], pose[WAVE_FACTOR]
-            pose[BOUND] = fill_grid(components, tables, scratch, x, y, time, factor, terms, line)
+            pose[BOUND] = fill_grid(components, tables, base, scratch, x, y, time, factor, terms, line)
         for _sweep in range(sweeps):
             for b in range(points.shape[0]):
                 x, y, z = eight(points, b, 0), eight(points, b, 1), eight(points, b, 2)
                 elevation, head = grid_elevation_and_head(
-                    components, tables, scratch, x, y, z, wheeler, terms, line
+                    components, tables, base, scratch, x, y, z, wheeler, terms, line
                 )
                 for i in ti.static(range(LANES)):
                     out[b, 0, i] = elevation[i]
@@ -135,6 +136,7 @@ def _evaluate(
 def grid_elevation_and_head(
     components: ti.template(),
     tables: ti.template(),
+    base,
     scratch: ti.template(),
     x,
     y,
@@ -147,69 +149,69 @@ def grid_elevation_and_head(
 
     `height` above calm water. The head is that at the surface for dry points, as the direct sum has it.
     """
-    u, v = _node_coordinates(tables, x, y, line)
+    u, v = _node_coordinates(tables, base, x, y, line)
     elevation, head = Lanes(0.0), Lanes(0.0)
     summed = True
-    if _are_inside(tables, u, v, line):
-        _interpolate(tables, scratch, u, v, terms, line)
-        fields = whole(tables, at.WORK) + FIELDS
+    if _are_inside(tables, base, u, v, line):
+        _interpolate(tables, base, scratch, u, v, terms, line)
+        fields = whole(tables, base, at.WORK) + FIELDS
         for c in ti.static(range(terms)):
             elevation += scratch[fields + c]
         depth = _depth_argument(height, elevation, wheeler)
-        if depth.min() >= -number(tables, at.DEPTH):
-            head = _chebyshev(tables, scratch, fields, depth, terms)
+        if depth.min() >= -number(tables, base, at.DEPTH):
+            head = _chebyshev(tables, base, scratch, fields, depth, terms)
             summed = False
     if summed:
-        elevation, head = _sum_directly(components, tables, scratch, x, y, height, wheeler)
+        elevation, head = _sum_directly(components, tables, base, scratch, x, y, height, wheeler)
     return elevation, head
 
 
 @ti.func
-def elevation_bound(tables: ti.template(), x, y, crest_bound, wave_factor, line: ti.template()):
+def elevation_bound(tables: ti.template(), base, x, y, crest_bound, wave_factor, line: ti.template()):
     """A bound on the elevation at eight points [m]: that of `fill_grid` within the box, else Σ |a|."""
-    u, v = _node_coordinates(tables, x, y, line)
-    bound = abs(wave_factor) * number(tables, at.AMPLITUDE_SUM)
-    if _are_inside(tables, u, v, line):
+    u, v = _node_coordinates(tables, base, x, y, line)
+    bound = abs(wave_factor) * number(tables, base, at.AMPLITUDE_SUM)
+    if _are_inside(tables, base, u, v, line):
         bound = crest_bound
     return bound
 
 
 @ti.func
-def _node_coordinates(tables: ti.template(), x, y, line: ti.template()):
+def _node_coordinates(tables: ti.template(), base, x, y, line: ti.template()):
     """Eight points in units of the node spacing, counted from the first node along both axes."""
-    u, v = x - number(tables, at.CENTRE_X), y - number(tables, at.CENTRE_Y)
+    u, v = x - number(tables, base, at.CENTRE_X), y - number(tables, base, at.CENTRE_Y)
     if ti.static(line):
-        u = u * number(tables, at.UNIT_X) + v * number(tables, at.UNIT_Y)
-    u = u * number(tables, at.NODES_A_METRE_X) + 0.5 * (number(tables, at.NODES_X) - 1.0)
-    v = v * number(tables, at.NODES_A_METRE_Y) + 0.5 * (number(tables, at.NODES_Y) - 1.0)
+        u = u * number(tables, base, at.UNIT_X) + v * number(tables, base, at.UNIT_Y)
+    u = u * number(tables, base, at.NODES_A_METRE_X) + 0.5 * (number(tables, base, at.NODES_X) - 1.0)
+    v = v * number(tables, base, at.NODES_A_METRE_Y) + 0.5 * (number(tables, base, at.NODES_Y) - 1.0)
     return u, v
 
 
 @ti.func
-def _are_inside(tables: ti.template(), u, v, line: ti.template()):
+def _are_inside(tables: ti.template(), base, u, v, line: ti.template()):
     """Whether all nodes about all eight points exist."""
-    margin = 0.5 * (number(tables, at.DEGREE) - 1.0)
-    inside = u.min() >= margin and u.max() < number(tables, at.NODES_X) - 1.0 - margin
+    margin = 0.5 * (number(tables, base, at.DEGREE) - 1.0)
+    inside = u.min() >= margin and u.max() < number(tables, base, at.NODES_X) - 1.0 - margin
     if ti.static(not line):
-        inside = inside and v.min() >= margin and v.max() < number(tables, at.NODES_Y) - 1.0 - margin
+        inside = inside and v.min() >= margin and v.max() < number(tables, base, at.NODES_Y) - 1.0 - margin
     return inside
 
 
 @ti.func
 def _interpolate(
-    tables: ti.template(), scratch: ti.template(), u, v, terms: ti.template(), line: ti.template()
+    tables: ti.template(), base, scratch: ti.template(), u, v, terms: ti.template(), line: ti.template()
 ):
     """Put the depth terms of eight points into the rows FIELDS of the work room, a term a row."""
     wide = ti.static(terms // LANES)
-    degree, work = whole(tables, at.DEGREE), whole(tables, at.WORK)
-    margin = 0.5 * (number(tables, at.DEGREE) - 1.0)
+    degree, work = whole(tables, base, at.DEGREE), whole(tables, base, at.WORK)
+    margin = 0.5 * (number(tables, base, at.DEGREE) - 1.0)
     first = ti.floor(u) - margin
-    _store_weights(tables, scratch, work + WEIGHTS_X, u - ti.floor(u))
+    _store_weights(tables, base, scratch, work + WEIGHTS_X, u - ti.floor(u))
     if ti.static(not line):
-        first = first * number(tables, at.NODES_Y) + (ti.floor(v) - margin)
-        _store_weights(tables, scratch, work + WEIGHTS_Y, v - ti.floor(v))
-    scratch[work + FIRST] = first * wide + number(tables, at.AT_NODES)
-    stride = wide * whole(tables, at.NODES_Y)
+        first = first * number(tables, base, at.NODES_Y) + (ti.floor(v) - margin)
+        _store_weights(tables, base, scratch, work + WEIGHTS_Y, v - ti.floor(v))
+    scratch[work + FIRST] = first * wide + number(tables, base, at.AT_NODES)
+    stride = wide * whole(tables, base, at.NODES_Y)
     for lane in range(LANES):
         node = ti.cast(scratch[work + FIRST][lane], ti.i32)
         field = ti.Vector.zero(ti.f64, terms)
@@ -228,9 +230,9 @@ def _interpolate(
 
 
 @ti.func
-def _store_weights(tables: ti.template(), scratch: ti.template(), place, fraction):
+def _store_weights(tables: ti.template(), base, scratch: ti.template(), place, fraction):
     """Weights of the p + 1 nodes about eight places in their cells."""
-    degree, polynomials = whole(tables, at.DEGREE), whole(tables, at.SPLINE)
+    degree, polynomials = whole(tables, base, at.DEGREE), whole(tables, base, at.SPLINE)
     for node in range(degree + 1):
         weight = Lanes(0.0)
         for power in range(degree + 1):
@@ -239,9 +241,11 @@ def _store_weights(tables: ti.template(), scratch: ti.template(), place, fractio
 
 
 @ti.func
-def _chebyshev(tables: ti.template(), scratch: ti.template(), fields, depth, terms: ti.template()):
+def _chebyshev(tables: ti.template(), base, scratch: ti.template(), fields, depth, terms: ti.template()):
     """The depth series at eight points by Clenshaw's rule."""
-    argument = exp2(depth * number(tables, at.RATE)) * number(tables, at.SCALE) + number(tables, at.SHIFT)
+    argument = exp2(depth * number(tables, base, at.RATE)) * number(tables, base, at.SCALE) + number(
+        tables, base, at.SHIFT
+    )
     twice = argument + argument
     last, before = Lanes(0.0), Lanes(0.0)
     for c in ti.static(range(terms - 1, 0, -1)):
@@ -259,24 +263,26 @@ def _depth_argument(height, elevation, wheeler):
 
 @ti.func
 def _sum_directly(
-    components: ti.template(), tables: ti.template(), scratch: ti.template(), x, y, height, wheeler
+    components: ti.template(), tables: ti.template(), base, scratch: ti.template(), x, y, height, wheeler
 ):
     """Elevation and wave head at eight points as sums over the waves."""
-    x -= number(tables, at.CENTRE_X)
-    y -= number(tables, at.CENTRE_Y)
+    x -= number(tables, base, at.CENTRE_X)
+    y -= number(tables, base, at.CENTRE_Y)
+    first, count = whole(tables, base, at.FIRST_BLOCK), LANES * whole(tables, base, at.BLOCKS)
     elevation, head = Lanes(0.0), Lanes(0.0)
-    for m in range(LANES * components.shape[0]):
-        elevation += _crest_of(components, scratch, m, x, y)
+    for m in range(count):
+        elevation += _crest_of(components, first, scratch, m, x, y)
     depth = _depth_argument(height, elevation, wheeler)
-    for m in range(LANES * components.shape[0]):
-        decay = components[m >> LANE_BITS, at.DECAY, m & (LANES - 1)]
-        head += _crest_of(components, scratch, m, x, y) * exp2(depth * decay)
+    for m in range(count):
+        decay = components[first + (m >> LANE_BITS), at.DECAY, m & (LANES - 1)]
+        head += _crest_of(components, first, scratch, m, x, y) * exp2(depth * decay)
     return elevation, head
 
 
 @ti.func
-def _crest_of(components: ti.template(), scratch: ti.template(), m, x, y):
+def _crest_of(components: ti.template(), first, scratch: ti.template(), m, x, y):
     """a cos θ of one wave at eight points relative to the centre of the box."""
     b, i = m >> LANE_BITS, m & (LANES - 1)
-    turns = x * components[b, at.KX, i] + y * components[b, at.KY, i] + scratch[b * WAVE_ROWS + PHASE][i]
+    turns = x * components[first + b, at.KX, i] + y * components[first + b, at.KY, i]
+    turns += scratch[b * WAVE_ROWS + PHASE][i]
     return cos_of_turns(turns) * scratch[b * WAVE_ROWS + CREST][i]

@@ -12,9 +12,9 @@ have 1/12 of a panel each and the centre the rest: exact for quadratic pressure 
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TypeVar
+from typing import Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,7 +23,6 @@ from panelsim.conventions import RULES, STRETCHINGS, FloatArray, IntArray, corne
 from panelsim.errors import PanelsimError
 
 LANES = 8  # points that the kernel handles side by side
-INERT_POINT_HEIGHT = 1000.0  # m above the CG: where the points stand that only fill up a block
 # Share of a panel that the bend of the pressure takes beyond the third that the triangles give the centre.
 QUADRILATERAL_BEND = 2.0 / 3.0 - 1.0 / 3.0
 TRIANGLE_BEND = 3.0 / 4.0 - 1.0 / 3.0
@@ -36,7 +35,7 @@ class PanelTables:
     """The hull surface in ship axes, ready for the pressure sum; made by `panel_tables`.
 
     The points are the vertices in order of height, so that most blocks of eight are wholly wet or
-    wholly dry, filled up to a multiple of eight with inert points that no panel uses; then the centres of
+    wholly dry, filled up to a multiple of eight with copies that no panel uses; then the centres of
     the panels likewise, that of panel n being point `first_centre` + n.
 
     `points` (P, 3) [m]; `response`, of each rule (P, 6): force [m2] and moment about the origin [m3] for
@@ -79,6 +78,17 @@ class WaveTables:
     encounter_frequency: FloatArray
     phase: FloatArray
     second_order: bool = field(default=False, kw_only=True)
+
+    @property
+    def standard_deviation(self) -> float:
+        """Of the elevation of first order [m]."""
+        return float(np.sqrt(0.5 * np.sum(self.amplitude**2)))
+
+    def turned(self, angle: float) -> Self:
+        """The same waves in axes turned by `angle` [rad] about the vertical; by none, to the bit."""
+        cos, sin = np.cos(angle), np.sin(angle)
+        x, y = self.wavenumber_x, self.wavenumber_y
+        return replace(self, wavenumber_x=cos * x + sin * y, wavenumber_y=cos * y - sin * x)
 
     @cached_property
     def columns(self) -> FloatArray:
@@ -210,11 +220,8 @@ def require_rule(rule: str) -> None:
 
 
 def _blocks_filled_up(points: FloatArray) -> FloatArray:
-    """Points (P, 3) and inert ones up to the next multiple of eight."""
-    filled = np.zeros((-(-len(points) // LANES) * LANES, 3))
-    filled[:, 2] = INERT_POINT_HEIGHT
-    filled[: len(points)] = points
-    return filled
+    """Points (P, 3) up to the next multiple of eight, the last one repeated: no panel uses the copies."""
+    return points[np.minimum(np.arange(-(-len(points) // LANES) * LANES), len(points) - 1)]
 
 
 def _responses(points: FloatArray, panels: NDArray[np.int32], first_centre: int, rule: str) -> FloatArray:

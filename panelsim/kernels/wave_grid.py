@@ -7,6 +7,7 @@ taken out again. So the cost hardly depends on how many waves there are, nor on 
 frequencies and directions.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -54,8 +55,11 @@ from panelsim.kernels.tables import LANES, WaveTables
     AT_ROWS,
     AT_NODES,
     WORK,
-) = range(24)
-HEAD = 24
+    CURVATURE_SUM,
+    FIRST_BLOCK,  # where the waves begin among those of several grids, and how many blocks they are
+    BLOCKS,
+) = range(27)
+HEAD = 32
 # Columns of WaveGrid.components; phases in turns, decay in powers of two, gain 1/transfer.
 AMPLITUDE, KX, KY, DECAY, FREQUENCY, LEAD, GAIN = range(7)
 COMPONENT_COLUMNS = 7
@@ -122,6 +126,18 @@ def wave_grid(
     components.setflags(write=False)
     tables.setflags(write=False)
     return WaveGrid(waves, box, plan, components, tables, scratch_rows)
+
+
+def stacked(grids: Sequence[WaveGrid]) -> tuple[FloatArray, FloatArray, NDArray[np.int32]]:
+    """Components and tables of several grids one after the other, and the row (G,) where each one begins."""
+    rows = np.cumsum([0, *(len(grid.tables) for grid in grids)])
+    blocks = np.cumsum([0, *(len(grid.components) for grid in grids)])
+    tables = np.concatenate([grid.tables for grid in grids])
+    heads = [tables[row : row + HEAD // LANES].reshape(-1) for row in rows[:-1]]
+    for head, row, block in zip(heads, rows, blocks, strict=False):
+        head[[SPLINE, SPREADING, SUMS_X, SUMS_Y]] += row
+        head[FIRST_BLOCK] = block
+    return np.concatenate([grid.components for grid in grids]), tables, rows[:-1].astype(np.int32)
 
 
 def transfer(step: FloatArray, degree: int) -> FloatArray:
@@ -229,7 +245,9 @@ def _packed(
     head[[NODES_X, NODES_Y, MODES_X, MODES_Y]] = plan.x.nodes, plan.y.nodes, *modes
     head[[DEGREE, RATE, DEPTH]] = plan.degree, depth.rate / np.log(2.0), depth.depth
     head[[SCALE, SHIFT]] = 2.0 / (1.0 - depth.lowest), -(1.0 + depth.lowest) / (1.0 - depth.lowest)
-    head[AMPLITUDE_SUM] = np.abs(waves.amplitude).sum()
+    amplitude = np.abs(waves.amplitude)
+    head[[AMPLITUDE_SUM, CURVATURE_SUM]] = amplitude.sum(), amplitude @ waves.wavenumber**2
+    head[BLOCKS] = -(-len(amplitude) // LANES)
     head[[SPLINE, SPREADING, SUMS_X, SUMS_Y]] = parts
     head[[AT_MODES, AT_ROWS, AT_NODES, WORK]] = rooms[:-1]
     flat = np.concatenate([head, spline.ravel(), spreading.ravel(), sums_x.ravel(), sums_y.ravel()])

@@ -1,19 +1,17 @@
 """Nonlinear buoyancy and incident-wave load: pressure over the hull that is wet at this instant."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from panelsim.conventions import FloatArray, load_to_earth
 from panelsim.errors import PanelsimError
 from panelsim.kernels.runtime import interrupts_held_back
-from panelsim.kernels.tables import panel_tables, require_rule, wave_tables
+from panelsim.kernels.tables import panel_tables, wave_tables
 from panelsim.loads.load import Instant
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.seaways import Seaway
 from panelsim.ship.ship import Ship
-
-METHODS = ("auto", "direct", "oracle")
 
 
 class WettedSurface:
@@ -22,8 +20,12 @@ class WettedSurface:
     Pressure −ρ g z_w + ρ g Σ a cos θ exp(k(z_w − ζ)) where the panel is, panels cut at the water
     surface, ζ with the second order of Stokes waves; force and moment about the CG in ship axes, then
     turned to translating earth axes.
-    `method` "direct" is the compiled sum over components, "oracle" its slow NumPy twin; `rule` says where
-    the pressure of a panel is taken, "vertex" at its corners, "vertex+centre" at its centre as well.
+    A batch: one ship in several seas or at several speeds [m/s], stepped together; each row is to the bit
+    what it would be alone. `method`: "direct" sums the waves at every point of the hull, "grid" takes them
+    from a grid that moves with the ship, "oracle" is the slow NumPy twin, "auto" chooses by cost. `rule` says
+    where the pressure of a panel is taken: "vertex" at its corners, "vertex+centre" at its centre as well,
+    "panel" at the centre for the whole of it. Raises PanelsimError for unknown names and for Stokes waves on
+    a grid.
     """
 
     name = "wetted_surface"
@@ -38,45 +40,42 @@ class WettedSurface:
         method: str = "auto",
         rule: str = "vertex+centre",
     ) -> None:
-        require_rule(rule)
-        self._integrate = _method(method)
-        self._panels = panel_tables(ship.vertices, ship.mesh.panels)
-        self._seas = [
-            wave_tables(
-                sea.amplitude,
-                sea.wavenumber(ship.gravity),
-                sea.wave_heading,
-                sea.encounter_frequency(u, ship.gravity),
-                sea.phase,
-                second_order=sea.second_order,
-            )
-            for sea, u in zip(components, speed, strict=True)
-        ]
-        self._ship = ship
-        self._stretching = stretching
-        self._rule = rule
+        with interrupts_held_back():  # Taichi is imported here
+            from panelsim.kernels.pressure import PressureIntegral
+        self._integral = PressureIntegral(
+            panel_tables(ship.vertices, ship.mesh.panels),
+            [
+                wave_tables(
+                    sea.amplitude,
+                    sea.wavenumber(ship.gravity),
+                    sea.wave_heading,
+                    sea.encounter_frequency(u, ship.gravity),
+                    sea.phase,
+                    second_order=sea.second_order,
+                )
+                for sea, u in zip(components, speed, strict=True)
+            ],
+            waterline=ship.waterline,
+            water_density=ship.water_density,
+            gravity=ship.gravity,
+            stretching=stretching,
+            rule=rule,
+            method=method,
+        )
+        self._poses = np.empty((len(components), 8))
+
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """By which method each sea is evaluated: "direct", "grid" or "oracle"."""
+        return self._integral.methods
 
     def in_ship_axes(self, instant: Instant) -> FloatArray:
         """Force and moment (B, 6) about the CG in ship axes [N, N m]."""
-        poses = np.empty((len(self._seas), 8))
+        poses = self._poses
         poses[:, 0] = instant.time
         poses[:, 1] = instant.wave_factor
         poses[:, 2:] = instant.displacement
-        return np.concatenate(
-            [
-                self._integrate(
-                    self._panels,
-                    sea,
-                    pose[None],
-                    waterline=self._ship.waterline,
-                    water_density=self._ship.water_density,
-                    gravity=self._ship.gravity,
-                    stretching=self._stretching,
-                    rule=self._rule,
-                )
-                for sea, pose in zip(self._seas, poses, strict=True)
-            ]
-        )
+        return self._integral(poses)
 
     def evaluate(self, instant: Instant) -> FloatArray:
         """Load (B, 6) in translating earth axes, moments conjugate to the yaw-pitch-roll angles."""
@@ -92,27 +91,16 @@ def pressure_force(
     speed: float = 0.0,
     stretching: str = "wheeler",
     method: str = "auto",
+    rule: str = "vertex+centre",
 ) -> FloatArray:
     """Incident-wave and buoyancy force and moment (6,) about the CG, in ship axes [N, N m].
 
     `time` [s], `displacement` (6,) of the ship in translating earth axes [m, rad], `speed` [m/s].
-    `method` "direct" is the compiled direct sum, "oracle" its slow NumPy twin; "auto" chooses.
+    `method` and `rule` as in `WettedSurface`.
     Raises PanelsimError for a displacement that is not six finite numbers and for unknown names.
     """
     displacement = np.asarray(displacement, dtype=float)
     if displacement.shape != (6,) or not np.isfinite(displacement).all():
         raise PanelsimError("The displacement is not six finite numbers", got=displacement)
-    load = WettedSurface(ship, [seaway.components], [speed], stretching=stretching, method=method)
+    load = WettedSurface(ship, [seaway.components], [speed], stretching=stretching, method=method, rule=rule)
     return load.in_ship_axes(Instant(time, 1.0, displacement[None], np.zeros((1, 6))))[0]
-
-
-def _method(name: str) -> Callable[..., FloatArray]:
-    """The function that integrates; imported here because the kernel starts Taichi."""
-    if name not in METHODS:
-        raise PanelsimError("Unknown method", got=name, allowed=" | ".join(METHODS))
-    if name == "oracle":
-        from panelsim.kernels.oracle import wetted_surface_load
-    else:
-        with interrupts_held_back():
-            from panelsim.kernels.pressure import wetted_surface_load
-    return wetted_surface_load

@@ -1,0 +1,194 @@
+"""Methods and batches of the pressure integral: the same answer by all, the same bits in any company."""
+
+import numpy as np
+import pytest
+
+from panelsim.conventions import RULES, STRETCHINGS
+from panelsim.errors import PanelsimError
+from panelsim.kernels import grid, runtime
+from panelsim.kernels.grid_plan import DEFAULT_TOLERANCE
+from panelsim.kernels.hull_box import SECTOR, hull_box
+from panelsim.kernels.pressure import PressureIntegral, wetted_surface_load
+from panelsim.kernels.tables import PanelTables, WaveTables, panel_tables, wave_tables
+from panelsim.ship.bundled import load_ship
+
+SHIP = load_ship("halifax", 5.0)
+GIVEN = {"waterline": SHIP.waterline, "water_density": 1025.0, "gravity": 9.80665}
+CALM = wave_tables([], [], [], [], [])
+
+
+@pytest.fixture(scope="module")
+def panels() -> PanelTables:
+    return panel_tables(SHIP.vertices, SHIP.mesh.panels)
+
+
+def sea(count: int, heading: float, *, spread: float = 0.0, speed: float = 10.0, seed: int = 1) -> WaveTables:
+    """A steep sea of 5 m significant height, of `count` waves."""
+    random = np.random.default_rng(seed)
+    frequency = np.linspace(0.4, 1.8, count)
+    height = np.sqrt(frequency**-5 * np.exp(-1.25 * (0.65 / frequency) ** 4))
+    k = frequency**2 / GIVEN["gravity"]
+    headings = heading + spread * random.uniform(-1.0, 1.0, count)
+    return wave_tables(
+        1.25 * height / np.sqrt(0.5 * np.sum(height**2)),
+        k,
+        headings,
+        frequency - speed * k * np.cos(headings),
+        random.uniform(0.0, 2.0 * np.pi, count),
+    )
+
+
+LINE, PLANE = sea(37, 2.6), sea(160, 2.6, spread=1.2)
+STOKES = wave_tables([2.0], [0.06], [2.0], [0.9], [0.3], second_order=True)
+
+
+def poses(count: int, *, yaw: float = 0.05) -> np.ndarray:
+    random = np.random.default_rng(3)
+    scatter = [100.0, 0.2, 5.0, 4.0, 1.0, 0.2, 0.03, yaw]
+    return random.normal(0.0, scatter, (count, 8)) + np.eye(8)[1]
+
+
+def dynamic(panels: PanelTables, waves: WaveTables, given: np.ndarray) -> np.ndarray:
+    """Largest load of the waves (6,) at the poses."""
+    still = given * (np.arange(8) != 1)
+    loads = [wetted_surface_load(panels, waves, each, **GIVEN) for each in (given, still)]
+    return np.abs(loads[0] - loads[1]).max(axis=0)
+
+
+@pytest.mark.parametrize("waves", [LINE, PLANE], ids=["line", "plane"])
+@pytest.mark.parametrize("stretching", STRETCHINGS)
+@pytest.mark.parametrize("rule", RULES)
+def test_the_grid_gives_the_direct_load_within_its_tolerance(
+    panels: PanelTables, waves: WaveTables, stretching: str, rule: str
+) -> None:
+    """At any heading, the grid turning with the ship a sector at a time."""
+    given = np.concatenate([poses(6), poses(10, yaw=1.5)])
+    settings = {**GIVEN, "stretching": stretching, "rule": rule}
+    apart = np.abs(
+        wetted_surface_load(panels, waves, given, method="grid", **settings)
+        - wetted_surface_load(panels, waves, given, method="direct", **settings)
+    )
+    # Whole panels flood or not by the last bit of the elevation, though hardly by chance.
+    assert (apart.max(axis=0) <= DEFAULT_TOLERANCE * dynamic(panels, waves, given)).all()
+    assert apart.max() > 0.0
+
+
+def test_a_turn_of_ship_and_sea_leaves_the_load_in_ship_axes(panels: PanelTables) -> None:
+    """By whole sectors: the grid then is the same one, turned with them."""
+    given = poses(4, yaw=0.02)
+    angle = 3.0 * SECTOR
+    turned = given.copy()
+    turned[:, 2] = given[:, 2] * np.cos(angle) - given[:, 3] * np.sin(angle)
+    turned[:, 3] = given[:, 2] * np.sin(angle) + given[:, 3] * np.cos(angle)
+    turned[:, 7] += angle
+    loads = [
+        wetted_surface_load(panels, waves, each, method="grid", **GIVEN)
+        for waves, each in ((PLANE, given), (PLANE.turned(-angle), turned))
+    ]
+    # Rounding of wavenumbers and phases, of some hundred turns.
+    np.testing.assert_allclose(loads[1], loads[0], atol=1e-11 * np.abs(loads[0]).max())
+    unturned = wetted_surface_load(panels, PLANE, turned, method="grid", **GIVEN)
+    assert np.abs(unturned - loads[0]).max() > 1e-3 * np.abs(loads[0]).max()
+
+
+def test_members_of_a_batch_are_bit_for_bit_what_they_are_alone(panels: PanelTables) -> None:
+    """Seas, speeds and headings of every kind together, at poses near the course and far off it."""
+    seas = [LINE, CALM, PLANE, STOKES, sea(37, 0.4, speed=3.0), sea(8, 1.0), PLANE, sea(300, 1.5, spread=0.8)]
+    given = poses(len(seas), yaw=0.6)
+    together = PressureIntegral(panels, seas, **GIVEN)
+    assert set(together.methods) == {"direct", "grid"} and together.methods[1] == "direct"
+    loads = together(given)
+    again = together(given[::-1])[::-1]
+    for i, waves in enumerate(seas):
+        alone = PressureIntegral(panels, [waves], **GIVEN)
+        np.testing.assert_array_equal(alone(given[i : i + 1])[0], loads[i])
+        if waves is seas[len(seas) - 1 - i]:
+            np.testing.assert_array_equal(again[i], loads[i])
+    np.testing.assert_array_equal(together(given), loads)
+
+
+def test_one_sea_serves_any_number_of_poses(panels: PanelTables) -> None:
+    for waves in (LINE, sea(5, 2.0)):
+        integral = PressureIntegral(panels, [waves], **GIVEN)
+        given = poses(5, yaw=0.4)
+        loads = integral(given)
+        for count in (1, 3, 5):
+            np.testing.assert_array_equal(integral(given[:count]), loads[:count])
+        assert integral(given[:0]).shape == (0, 6)
+
+
+def test_auto_sums_few_waves_directly_and_takes_many_from_a_grid(panels: PanelTables) -> None:
+    seas = [CALM, sea(1, 2.0), sea(5, 2.0), STOKES, LINE, PLANE]
+    methods = PressureIntegral(panels, seas, **GIVEN).methods
+    assert methods == ("direct",) * 4 + ("grid",) * 2
+
+
+def test_calm_water_needs_no_grid_and_stokes_waves_go_on_none(panels: PanelTables) -> None:
+    integral = PressureIntegral(panels, [CALM], method="grid", **GIVEN)
+    assert integral.methods == ("direct",)
+    with pytest.raises(PanelsimError, match="Stokes"):
+        PressureIntegral(panels, [STOKES], method="grid", **GIVEN)
+
+
+def test_grids_are_built_once_for_each_sector(panels: PanelTables, monkeypatch: pytest.MonkeyPatch) -> None:
+    built = []
+    original = grid.at.wave_grid
+    monkeypatch.setattr(grid.at, "wave_grid", lambda *given: built.append(1) or original(*given))
+    integral = PressureIntegral(panels, [LINE], method="grid", **GIVEN)
+    for yaw in (0.0, 0.04, -0.04, 0.12, 0.0, 0.12):
+        integral(np.array([[3.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, yaw]]))
+    assert len(built) == 2
+
+
+def test_the_box_holds_the_hull_at_the_attitudes_it_is_made_for() -> None:
+    box = hull_box(SHIP.vertices, SHIP.waterline, 1.0)
+    x, y, z = SHIP.vertices.T
+    assert box.x_low < x.min() and x.max() < box.x_high
+    assert box.y_low < y.min() and y.max() < box.y_high
+    assert box.depth > SHIP.waterline - z.min() + 3.0
+    turned = np.abs(y) * np.cos(0.5 * SECTOR) + np.abs(x) * np.sin(0.5 * SECTOR)
+    assert turned.max() < max(box.y_high, -box.y_low)
+
+
+@pytest.mark.parametrize(
+    ("changed", "match"),
+    [
+        ({"method": "magic"}, "Unknown method"),
+        ({"method": None}, "Unknown method"),
+        ({"rule": "corner"}, "rule"),
+        ({"stretching": "much"}, "stretching"),
+        ({"method": "grid", "tolerance": 0.0}, "tolerance"),
+    ],
+)
+def test_bad_words_are_refused(panels: PanelTables, changed: dict[str, object], match: str) -> None:
+    with pytest.raises(PanelsimError, match=match):
+        PressureIntegral(panels, [LINE], **{**GIVEN, **changed})
+
+
+def test_seas_and_poses_must_match(panels: PanelTables) -> None:
+    with pytest.raises(PanelsimError, match="no sea"):
+        PressureIntegral(panels, [], **GIVEN)
+    with pytest.raises(PanelsimError, match="not one pose for each sea"):
+        PressureIntegral(panels, [LINE, LINE], **GIVEN)(poses(3))
+    with pytest.raises(PanelsimError, match="not finite"):
+        PressureIntegral(panels, [LINE], **GIVEN)(np.full((1, 8), np.nan))
+
+
+def test_a_launch_is_the_call_it_stands_for(panels: PanelTables) -> None:
+    """It keeps its arrays alive, reads them where they are and survives a change of their contents."""
+    from panelsim.kernels.wave_sums import ti
+
+    @ti.kernel
+    def scale(values: ti.types.ndarray(dtype=ti.f64, ndim=1), factor: ti.i32, negate: ti.template()):  # type: ignore[no-untyped-def]
+        for i in range(values.shape[0]):
+            values[i] *= factor
+            if ti.static(negate):
+                values[i] = -values[i]
+
+    values = np.arange(4.0)
+    launch = runtime.Launch(scale, values, 3, True)
+    launch()
+    np.testing.assert_array_equal(values, -3.0 * np.arange(4.0))
+    values[:] = 1.0
+    launch()
+    np.testing.assert_array_equal(values, -3.0)
