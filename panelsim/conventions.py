@@ -25,6 +25,10 @@ STRETCHINGS = ("wheeler", "none")
 CUT_RULES = ("vertex", "vertex+centre")
 RULES = (*CUT_RULES, "panel")
 
+# How that pressure is found: the waves summed point by point, taken from a grid that moves with the ship, or
+# summed by the slow NumPy twin; "auto" takes the cheaper of the first two.
+METHODS = ("auto", "direct", "grid", "oracle")
+
 
 class Dof(IntEnum):
     """The six motions, in the order of every array of six."""

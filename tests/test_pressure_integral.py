@@ -192,3 +192,44 @@ def test_a_launch_is_the_call_it_stands_for(panels: PanelTables) -> None:
     values[:] = 1.0
     launch()
     np.testing.assert_array_equal(values, -3.0)
+
+
+@pytest.mark.parametrize("waves", [CALM, LINE, STOKES], ids=["calm", "line", "Stokes"])
+@pytest.mark.parametrize("stretching", STRETCHINGS)
+@pytest.mark.parametrize("rule", RULES)
+def test_pressures_at_points_are_those_of_the_twin(
+    panels: PanelTables, waves: WaveTables, stretching: str, rule: str
+) -> None:
+    """At all points that the rule takes and a wet panel has; at the others a point counts as dry."""
+    settings = {**GIVEN, "stretching": stretching, "rule": rule}
+    pose = poses(1)
+    told = PressureIntegral(panels, [waves], method="direct", **settings).at_points(pose[0])
+    twin = PressureIntegral(panels, [waves], method="oracle", **settings).at_points(pose)
+    taken = np.zeros(len(panels.points), dtype=bool)
+    taken[panels.panels] = rule != "panel"
+    taken[panels.first_centre :][: len(panels.panels)] = rule != "vertex"
+    passed_by = told.submergence == -1.0
+    assert passed_by[~taken].all() and (twin.submergence[passed_by & taken] < 0.0).all()
+    wet = twin.submergence > 0.0
+    assert 0.3 < wet[taken].mean() < 0.9 and not passed_by[wet & taken].any()
+    near = taken & ~passed_by
+    for name in told._fields:
+        theirs = getattr(twin, name)[near]
+        # Sums of 37 waves in another order, and phases of some hundred turns.
+        np.testing.assert_allclose(getattr(told, name)[near], theirs, atol=1e-11 * np.abs(theirs).max())
+    if rule == "vertex+centre":
+        corners = panels.panels[(twin.submergence[panels.panels] > 0.0).any(axis=1)]
+        assert near[corners].all()
+
+
+def test_pressures_at_points_come_from_the_grid_too(panels: PanelTables) -> None:
+    pose = poses(1)[0]
+    told = {
+        method: PressureIntegral(panels, [PLANE], method=method, **GIVEN).at_points(pose)
+        for method in ("grid", "direct")
+    }
+    wet = told["direct"].submergence > 0.0
+    apart = (told["grid"].pressure - told["direct"].pressure)[wet] / (1025.0 * 9.80665)
+    assert 0.0 < np.abs(apart).max() < DEFAULT_TOLERANCE * 4.0 * PLANE.standard_deviation
+    with pytest.raises(PanelsimError, match="one sea and one pose"):
+        PressureIntegral(panels, [PLANE, LINE], **GIVEN).at_points(pose)

@@ -31,9 +31,14 @@ class DirectMethod:
         self._launch()
         return self._exchange[:, LOAD:].copy()
 
+    def at_points(self, poses: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Submergence and heads of the points (P,) at a single pose."""
+        self.heads(poses)
+        return self._hull.at_points(self._state)
+
     def _prepare(self, poses: FloatArray) -> None:
         self._exchange = self._hull.exchange(poses)
-        self.state = np.empty((3, len(self._hull.panels.points)))
+        self._state = self._hull.state()
         ranges = np.ascontiguousarray(np.broadcast_to(self._ranges, (len(poses), 2)), dtype=np.int32)
         self._launch = runtime.Launch(
             integrate_directly,
@@ -41,7 +46,7 @@ class DirectMethod:
             self._hull.panels.panels,
             self._components,
             ranges,
-            self.state,
+            self._state,
             self._exchange,
             *self._hull.arguments,
             self._second_order,

@@ -53,6 +53,20 @@ class Hull:
         self.put(poses, exchange)
         return exchange
 
+    def state(self) -> FloatArray:
+        """Room for submergence, head and head to cut of every point (3, P), of points that no rule takes."""
+        state = np.zeros((3, len(self.panels.points)))
+        state[0] = -1.0
+        return state
+
+    def at_points(self, state: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Copies of submergence, head and the head to interpolate to a cut, from what a kernel has left.
+
+        Wheeler's head at the surface is zero, or minus the second order of the elevation.
+        """
+        submergence, head, surface_head = state.copy()
+        return submergence, head, surface_head if self.stretching == "wheeler" else head.copy()
+
     def put(self, poses: FloatArray, exchange: FloatArray) -> None:
         """Set the poses of an exchange."""
         exchange[:, :LOAD] = poses

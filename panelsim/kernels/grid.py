@@ -39,6 +39,11 @@ class GridMethod:
             loads[members] = launched.heads(poses[members])
         return loads
 
+    def at_points(self, poses: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Submergence and heads of the points (P,) at a single pose."""
+        self.heads(poses)
+        return self._hull.at_points(self._launched[0][1].state)
+
     def _arrange(self, sectors: NDArray[np.int64]) -> None:
         """Launch together the poses whose grids are of one make."""
         self._sectors = sectors
@@ -65,7 +70,7 @@ class _Launched:
     def __init__(self, hull: Hull, grids: Sequence[at.WaveGrid]) -> None:
         self._hull = hull
         self._exchange = hull.exchange(np.zeros((len(grids), 8)))
-        self.state = np.empty((3, len(hull.panels.points)))
+        self.state = hull.state()
         components, tables, starts = at.stacked(grids)
         self._launch = runtime.Launch(
             integrate_on_grid,

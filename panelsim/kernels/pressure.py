@@ -1,11 +1,11 @@
 """Incident-wave and buoyancy pressure integrated over the wetted hull, by whichever method is asked for."""
 
 from collections.abc import Sequence
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from panelsim.conventions import FloatArray
+from panelsim.conventions import METHODS, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.kernels import oracle
 from panelsim.kernels.direct import DirectMethod
@@ -15,7 +15,18 @@ from panelsim.kernels.grid_plan import DEFAULT_TOLERANCE, choose_method
 from panelsim.kernels.hull_box import hull_box
 from panelsim.kernels.tables import PanelTables, WaveTables, checked_poses, require_rule, require_stretching
 
-METHODS = ("auto", "direct", "grid", "oracle")
+
+class PointPressure(NamedTuple):
+    """At the points (P,) of a hull (`PanelTables`) that the rule takes and that lie near the water.
+
+    `submergence` below the instantaneous surface [m], below zero where dry; `pressure` [Pa]; and the pressure
+    to interpolate along an edge to where the surface cuts it, `to_cut` [Pa]. Points that no wet panel has:
+    submergence -1, pressure 0.
+    """
+
+    submergence: FloatArray
+    pressure: FloatArray
+    to_cut: FloatArray
 
 
 class PressureIntegral:
@@ -85,6 +96,20 @@ class PressureIntegral:
             loads[members] = method.heads(poses[members])
         return loads * self._weight_density
 
+    def at_points(self, pose: FloatArray) -> PointPressure:
+        """What the water does at the points of the hull at one pose (8,) in a single sea.
+
+        Raises PanelsimError as a call does, and for several seas.
+        """
+        poses = checked_poses(np.atleast_2d(pose))
+        if self._sea_count != 1 or len(poses) != 1:
+            raise PanelsimError(
+                "Pressures at points are of one sea and one pose",
+                got=f"{self._sea_count} seas, {len(poses)} poses",
+            )
+        submergence, head, to_cut = self._parts[0][1].at_points(poses)
+        return PointPressure(submergence, head * self._weight_density, to_cut * self._weight_density)
+
 
 def wetted_surface_load(
     panels: PanelTables,
@@ -116,6 +141,8 @@ class _Method(Protocol):
     """Seas about one hull, by one method."""
 
     def heads(self, poses: FloatArray) -> FloatArray: ...
+
+    def at_points(self, poses: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]: ...
 
 
 def _method(name: str, hull: Hull, seas: list[WaveTables], tolerance: float) -> _Method:
@@ -159,3 +186,8 @@ class _Oracle:
             for sea, pose in zip(seas, poses, strict=True)
         ]
         return np.array(loads).reshape(-1, 6)
+
+    def at_points(self, poses: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Submergence and heads of the points (P,) at a single pose."""
+        water = oracle.Surroundings(self._seas[0], poses[0], self._hull.waterline, 1.0, self._hull.stretching)
+        return water.at(self._hull.panels.points)
