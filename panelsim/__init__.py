@@ -73,6 +73,7 @@ _HOMES = {
     "pressure_force": "loads.wetted_surface",
     "Supplementary": "loads.supplementary",
     "simulate": "motion.simulate",
+    "simulate_batch": "motion.simulate",
     "History": "motion.history",
     "statistics": "results.statistics",
     "report": "view.report",
@@ -102,6 +103,7 @@ if TYPE_CHECKING:
     from panelsim.loads.wetted_surface import pressure_force as pressure_force
     from panelsim.motion.history import History as History
     from panelsim.motion.simulate import simulate as simulate
+    from panelsim.motion.simulate import simulate_batch as simulate_batch
     from panelsim.results.statistics import statistics as statistics
     from panelsim.seaway.climate.limits import buckley_height as buckley_height
     from panelsim.seaway.climate.scatter import ScatterTable as ScatterTable

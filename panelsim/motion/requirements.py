@@ -1,6 +1,8 @@
 """What a run must have before it is begun: values in range, and a time step that can carry it."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
 
@@ -20,9 +22,25 @@ LEAST_SAMPLES = np.pi
 ENERGY_THAT_COUNTS = 0.05
 
 
+@contextmanager
+def about_member(member: int, members: int) -> Iterator[None]:
+    """Put the number of the member of a batch in front of a PanelsimError from the block."""
+    try:
+        yield
+    except PanelsimError as error:
+        if members == 1:
+            raise
+        raise PanelsimError(
+            f"Member {member + 1} of {members}: {error.what}",
+            got=error.got,
+            allowed=error.allowed,
+            remedy=error.remedy,
+        ) from None
+
+
 def require_run(
     *,
-    speed: float,
+    members: int,
     duration: float,
     time_step: float,
     ramp: float,
@@ -30,41 +48,52 @@ def require_run(
     model: str,
     stretching: str,
 ) -> None:
-    """Raise PanelsimError for a value that no run can have; SI units and radians."""
+    """Raise PanelsimError for a value that no batch of runs can have; SI units and radians."""
     for name, word, known in (("model", model, MODELS), ("wave stretching", stretching, STRETCHINGS)):
         if word not in known:
             raise PanelsimError(f"Unknown {name}", got=word, allowed=" | ".join(known))
     bounds = {
-        "speed": (speed, 0.0, 50.0, "m/s"),
         "time_step": (time_step, 1e-4, 5.0, "s"),
         "duration": (duration, time_step, 1e6, "s"),
         "ramp": (ramp, 0.0, 1e5, "s"),
         "capsize_angle": (capsize_angle, 0.0, np.pi, "rad"),
     }
     for name, (value, low, high, unit) in bounds.items():
-        if not low <= value <= high:
-            raise PanelsimError(
-                f"The {name} is out of range", got=f"{value:g} {unit}", allowed=f"{low:g} to {high:g} {unit}"
-            )
-    if (ramp + duration) / time_step > MOST_STEPS:
+        _require_between(name, value, low, high, unit)
+    steps = members * (ramp + duration) / time_step
+    if steps > MOST_STEPS:
         raise PanelsimError(
-            "The run has too many steps",
-            got=f"{(ramp + duration) / time_step:.3g}",
+            "The run has too many steps" if members == 1 else "The runs of the batch have too many steps",
+            got=f"{steps:.3g}",
             allowed=f"at most {MOST_STEPS}",
-            remedy="shorten the run, or take a longer time step",
+            remedy="shorten the run, or take a longer time step"
+            + (", or fewer seaways at a time" if members > 1 else ""),
         )
 
 
-def require_time_step(
-    time_step: float,
-    inertia: FloatArray,
-    stiffness: FloatArray,
-    components: WaveComponents,
-    encounter: FloatArray,
-) -> None:
-    """Raise PanelsimError where the step [s] is too long for the ship's own motions or for the waves.
+def require_speed(speed: float) -> None:
+    """Raise PanelsimError unless the speed [m/s] is one that a ship can have."""
+    _require_between("speed", speed, 0.0, 50.0, "m/s")
 
-    `inertia` M + A∞ and `stiffness` with the supplementary terms (6, 6); `encounter` (M,) [rad/s].
+
+def require_seed(seed: int | None) -> None:
+    """Raise PanelsimError unless the seed to remember is a whole number or None."""
+    if seed is not None and (isinstance(seed, bool) or not isinstance(seed, int | np.integer)):
+        raise PanelsimError("The seed is no whole number", got=repr(seed)[:60], allowed="an integer, or None")
+
+
+def _require_between(name: str, value: float, low: float, high: float, unit: str) -> None:
+    allowed = f"{low:g} to {high:g} {unit}"
+    if not isinstance(value, int | float | np.integer | np.floating):
+        raise PanelsimError(f"The {name} is not a number", got=repr(value)[:60], allowed=allowed)
+    if not low <= value <= high:
+        raise PanelsimError(f"The {name} is out of range", got=f"{value:g} {unit}", allowed=allowed)
+
+
+def require_step_for_ship(time_step: float, inertia: FloatArray, stiffness: FloatArray) -> None:
+    """Raise PanelsimError where the step [s] is too long for the ship's own motions.
+
+    `inertia` M + A∞ and `stiffness` with the supplementary terms (6, 6).
     """
     squared = np.linalg.eigvals(np.linalg.solve(inertia, stiffness)).real
     natural = float(np.sqrt(max(squared.max(), 0.0)))
@@ -75,6 +104,10 @@ def require_time_step(
             allowed=f"at most {LONGEST_STEP / natural:.2g} s",
             remedy="shorten run.time_step; a tenth of the natural period is accurate",
         )
+
+
+def require_step_for_waves(time_step: float, components: WaveComponents, encounter: FloatArray) -> None:
+    """Raise PanelsimError where the step [s] is too long for the waves, met at `encounter` (M,) [rad/s]."""
     share = energy_share(components, np.abs(encounter) * time_step > LEAST_SAMPLES)
     if share > ENERGY_THAT_COUNTS:
         raise PanelsimError(
@@ -105,12 +138,43 @@ def require_types(ship: object, database: object, supplementary: object, notes: 
         raise PanelsimError("The notes are one text", got=repr(notes)[:60], allowed="a list of sentences")
 
 
-def six_numbers(name: str, values: Sequence[float] | FloatArray) -> FloatArray:
-    """Six finite numbers as an array, else PanelsimError."""
+def require_seaway(seaway: object) -> None:
+    """Raise PanelsimError for what is no seaway."""
+    components, kind = getattr(seaway, "components", None), getattr(seaway, "kind", None)
+    if not (isinstance(components, WaveComponents) and isinstance(kind, str)):
+        raise PanelsimError(
+            "The seaway is of another kind",
+            got=repr(seaway)[:60],
+            allowed="a seaway, for example a RandomSeaway",
+            remedy="a ComponentSeaway makes one of wave components",
+        )
+
+
+def sequence_of(name: str, values: object, members: int | None = None) -> list[Any]:
+    """A sequence as a list, one entry for each of the members of a batch, else PanelsimError."""
+    allowed = "a sequence" if members is None else f"a sequence of {members}, one for each seaway"
+    if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, Iterable):
+        raise PanelsimError(f"The {name} are no sequence", got=repr(values)[:60], allowed=allowed)
+    listed = list(values)
+    if not listed:
+        raise PanelsimError(f"There are no {name}", got="an empty sequence", allowed="one or more")
+    if members not in (None, len(listed)):
+        raise PanelsimError(
+            f"There is not one of the {name} for each seaway", got=len(listed), allowed=allowed
+        )
+    return listed
+
+
+def six_numbers_each(name: str, values: object, members: int) -> FloatArray:
+    """Six finite numbers for each member (B, 6), given once (6,) or for each; else PanelsimError."""
     try:
         array = np.array(values, dtype=float)
     except (TypeError, ValueError):
         array = np.empty(0)
-    if array.shape != (6,) or not np.isfinite(array).all():
-        raise PanelsimError(f"The {name} is not six finite numbers", got=values)
-    return array
+    if array.shape not in ((6,), (members, 6)) or not np.isfinite(array).all():
+        raise PanelsimError(
+            f"The {name} is not six finite numbers",
+            got=values,
+            allowed="(6,)" if members == 1 else f"(6,), or ({members}, 6): six for each member of the batch",
+        )
+    return np.array(np.broadcast_to(array, (members, 6)))
