@@ -68,6 +68,8 @@ class RunSection(Section):
     duration: Annotated[float, Field(gt=0, le=1e6)]  # s, after the ramp
     ramp: Annotated[float, Field(ge=0, le=1e5)] = 60.0  # s
     capsize_angle_deg: Annotated[float, Field(ge=0, le=180)] = 90.0
+    pressure_method: Literal["auto", "direct", "grid", "oracle"] = "auto"
+    pressure_rule: Literal["vertex+centre", "vertex", "panel"] = "vertex+centre"
 
     @model_validator(mode="after")
     def _steps(self) -> "RunSection":

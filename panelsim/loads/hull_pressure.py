@@ -9,9 +9,10 @@ from panelsim.conventions import FloatArray, panel_triangles
 from panelsim.errors import PanelsimError
 from panelsim.kernels.runtime import interrupts_held_back
 from panelsim.kernels.section_loads import section_loads
-from panelsim.kernels.tables import PanelTables, panel_tables, wave_tables
+from panelsim.kernels.tables import PanelTables, panel_tables
 from panelsim.kernels.waterline import waterlines
 from panelsim.kernels.wet_part import WetPart, area_vectors, wet_part
+from panelsim.loads.wetted_surface import component_tables
 from panelsim.seaway.seaways import Seaway
 from panelsim.ship.ship import Ship
 
@@ -104,18 +105,9 @@ def _at_points(
     """Depth below the surface [m], pressure and pressure to interpolate to a cut [Pa] at the points (P,)."""
     with interrupts_held_back():  # Taichi is imported here
         from panelsim.kernels.pressure import PressureIntegral
-    sea = seaway.components
-    waves = wave_tables(
-        sea.amplitude,
-        sea.wavenumber(ship.gravity),
-        sea.wave_heading,
-        sea.encounter_frequency(speed, ship.gravity),
-        sea.phase,
-        second_order=sea.second_order,
-    )
     integral = PressureIntegral(
         panels,
-        [waves],
+        [component_tables(seaway.components, speed, ship.gravity)],
         waterline=ship.waterline,
         water_density=ship.water_density,
         gravity=ship.gravity,

@@ -7,7 +7,7 @@ import numpy as np
 from panelsim.conventions import FloatArray, load_to_earth
 from panelsim.errors import PanelsimError
 from panelsim.kernels.runtime import interrupts_held_back
-from panelsim.kernels.tables import panel_tables, wave_tables
+from panelsim.kernels.tables import WaveTables, panel_tables, wave_tables
 from panelsim.loads.load import Instant
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.seaways import Seaway
@@ -44,17 +44,7 @@ class WettedSurface:
             from panelsim.kernels.pressure import PressureIntegral
         self._integral = PressureIntegral(
             panel_tables(ship.vertices, ship.mesh.panels),
-            [
-                wave_tables(
-                    sea.amplitude,
-                    sea.wavenumber(ship.gravity),
-                    sea.wave_heading,
-                    sea.encounter_frequency(u, ship.gravity),
-                    sea.phase,
-                    second_order=sea.second_order,
-                )
-                for sea, u in zip(components, speed, strict=True)
-            ],
+            [component_tables(sea, u, ship.gravity) for sea, u in zip(components, speed, strict=True)],
             waterline=ship.waterline,
             water_density=ship.water_density,
             gravity=ship.gravity,
@@ -80,6 +70,18 @@ class WettedSurface:
     def evaluate(self, instant: Instant) -> FloatArray:
         """Load (B, 6) in translating earth axes, moments conjugate to the yaw-pitch-roll angles."""
         return load_to_earth(self.in_ship_axes(instant), instant.displacement)
+
+
+def component_tables(sea: WaveComponents, speed: float, gravity: float) -> WaveTables:
+    """The components of a sea as a ship at `speed` [m/s] meets them, for the kernels."""
+    return wave_tables(
+        sea.amplitude,
+        sea.wavenumber(gravity),
+        sea.wave_heading,
+        sea.encounter_frequency(speed, gravity),
+        sea.phase,
+        second_order=sea.second_order,
+    )
 
 
 def pressure_force(

@@ -69,6 +69,8 @@ def run_case(
             model=run.model,
             ramp=run.ramp,
             stretching=case.file.seaway.stretching,
+            pressure_method=run.pressure_method,
+            pressure_rule=run.pressure_rule,
             supplementary=supplementary,
             capsize_angle=float(np.deg2rad(run.capsize_angle_deg)),
             progress=on_run,
