@@ -61,6 +61,8 @@ def batch_calls(members: int, steps: int) -> tuple[Callable[[], None], ...]:
         database=database,
         model="nonlinear",
         stretching="wheeler",
+        pressure_method="auto",
+        pressure_rule="vertex+centre",
         supplementary=ps.Supplementary.of(ship),
     )
     wetted = next(load for load in loads if isinstance(load, WettedSurface))

@@ -71,6 +71,9 @@ _HOMES = {
     "HydroDatabase": "hydro.database",
     "database_for": "hydro.store",
     "pressure_force": "loads.wetted_surface",
+    "pressure_stiffness": "loads.derivatives",
+    "hull_pressure": "loads.hull_pressure",
+    "HullPressure": "loads.hull_pressure",
     "Supplementary": "loads.supplementary",
     "simulate": "motion.simulate",
     "simulate_batch": "motion.simulate",
@@ -99,6 +102,9 @@ if TYPE_CHECKING:
     from panelsim.hull.readers import read_mesh as read_mesh
     from panelsim.hydro.database import HydroDatabase as HydroDatabase
     from panelsim.hydro.store import database_for as database_for
+    from panelsim.loads.derivatives import pressure_stiffness as pressure_stiffness
+    from panelsim.loads.hull_pressure import HullPressure as HullPressure
+    from panelsim.loads.hull_pressure import hull_pressure as hull_pressure
     from panelsim.loads.supplementary import Supplementary as Supplementary
     from panelsim.loads.wetted_surface import pressure_force as pressure_force
     from panelsim.motion.history import History as History

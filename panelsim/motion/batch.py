@@ -9,9 +9,10 @@ import numpy as np
 
 from panelsim.conventions import FloatArray
 from panelsim.hydro.database import HydroDatabase
-from panelsim.loads.load import Instant
+from panelsim.loads.load import Instant, Load
 from panelsim.loads.radiation import Radiation
 from panelsim.loads.supplementary import Supplementary
+from panelsim.loads.wetted_surface import WettedSurface
 from panelsim.motion.equations import EquationsOfMotion
 from panelsim.motion.history import History
 from panelsim.motion.march import Limits, MemberRecord, Progress, march, ramp_factor
@@ -46,6 +47,8 @@ class Batch:
     ramp: float
     model: str
     stretching: str
+    pressure_method: str
+    pressure_rule: str
     capsize_angle: float
     case: str
     notes: Sequence[str]
@@ -55,7 +58,8 @@ class Batch:
     ) -> tuple[History, ...]:
         """Step all members from displacement and velocity (B, 6) to their ends."""
         begin = clock.process_time()
-        equations = self._equations()
+        loads = self._loads()
+        equations = self._equations(loads)
         # The first evaluation compiles the kernel; its time is no part of the time loop.
         equations.evaluate_loads(Instant(0.0, 0.0, displacement, velocity))
         compiled = clock.process_time()
@@ -73,16 +77,31 @@ class Batch:
         loop = clock.process_time() - compiled
         runs = [record.of(i) for i in range(len(self.members))]
         rows = sum(run.count for run in runs)
+        wetted = [load for load in loads if isinstance(load, WettedSurface)]
+        methods = wetted[0].methods if wetted else ("none",) * len(runs)
         return tuple(
-            self._history(member, run, loop * run.count / rows, (compiled - begin) / len(runs))
-            for member, run in zip(self.members, runs, strict=True)
+            self._history(member, run, method, loop * run.count / rows, (compiled - begin) / len(runs))
+            for member, run, method in zip(self.members, runs, methods, strict=True)
         )
 
-    def _equations(self) -> EquationsOfMotion:
+    def _loads(self) -> list[Load]:
+        """All loads but radiation."""
+        return run_loads(
+            self.ship,
+            [member.waves for member in self.members],
+            [member.speed for member in self.members],
+            database=self.database,
+            model=self.model,
+            stretching=self.stretching,
+            pressure_method=self.pressure_method,
+            pressure_rule=self.pressure_rule,
+            supplementary=self.supplementary,
+        )
+
+    def _equations(self, loads: Sequence[Load]) -> EquationsOfMotion:
         """The equations of motion of all members; PanelsimError where the time step is too long."""
         ship, members = self.ship, self.members
-        speeds = [member.speed for member in members]
-        radiation = Radiation(self.database, speeds, self.time_step)
+        radiation = Radiation(self.database, [member.speed for member in members], self.time_step)
         require_step_for_ship(
             self.time_step,
             ship.inertia + radiation.added_mass_infinite,
@@ -92,18 +111,11 @@ class Batch:
             encounter = member.waves.encounter_frequency(member.speed, ship.gravity)
             with about_member(i, len(members)):
                 require_step_for_waves(self.time_step, member.waves, encounter)
-        loads = run_loads(
-            ship,
-            [member.waves for member in members],
-            speeds,
-            database=self.database,
-            model=self.model,
-            stretching=self.stretching,
-            supplementary=self.supplementary,
-        )
         return EquationsOfMotion(ship.inertia, loads, radiation)
 
-    def _history(self, member: Member, run: MemberRecord, cpu_seconds: float, jit_seconds: float) -> History:
+    def _history(
+        self, member: Member, run: MemberRecord, method: str, cpu_seconds: float, jit_seconds: float
+    ) -> History:
         time = np.arange(run.count, dtype=np.float64) * self.time_step
         factor = np.array([ramp_factor(t, self.ramp) for t in time])
         # The twin whatever the length, so that a run is bit for bit the beginning of a longer one.
@@ -133,6 +145,8 @@ class Batch:
             ramp=self.ramp,
             time_step=self.time_step,
             model=self.model,
+            pressure_method=method,
+            pressure_rule=self.pressure_rule if self.model == "nonlinear" else "none",
             outcome=run.outcome,
             outcome_detail=run.detail,
             case=self.case,

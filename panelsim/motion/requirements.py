@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from panelsim.conventions import STRETCHINGS, FloatArray
+from panelsim.conventions import METHODS, RULES, STRETCHINGS, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
 from panelsim.loads.supplementary import Supplementary
@@ -47,9 +47,16 @@ def require_run(
     capsize_angle: float,
     model: str,
     stretching: str,
+    pressure_method: str,
+    pressure_rule: str,
 ) -> None:
     """Raise PanelsimError for a value that no batch of runs can have; SI units and radians."""
-    for name, word, known in (("model", model, MODELS), ("wave stretching", stretching, STRETCHINGS)):
+    for name, word, known in (
+        ("model", model, MODELS),
+        ("wave stretching", stretching, STRETCHINGS),
+        ("pressure method", pressure_method, METHODS),
+        ("pressure rule", pressure_rule, RULES),
+    ):
         if word not in known:
             raise PanelsimError(f"Unknown {name}", got=word, allowed=" | ".join(known))
     bounds = {

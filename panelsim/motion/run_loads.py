@@ -24,6 +24,8 @@ def run_loads(
     database: HydroDatabase,
     model: str,
     stretching: str,
+    pressure_method: str,
+    pressure_rule: str,
     supplementary: Supplementary,
 ) -> list[Load]:
     """Loads on a ship in one sea at one speed [m/s] for each run of the batch.
@@ -46,7 +48,14 @@ def run_loads(
     if nonlinear:
         loads = [
             Weight(ship.mass, ship.gravity),
-            WettedSurface(ship, components, speeds, stretching=stretching),
+            WettedSurface(
+                ship,
+                components,
+                speeds,
+                stretching=stretching,
+                method=pressure_method,
+                rule=pressure_rule,
+            ),
         ]
     else:
         loads = [

@@ -38,6 +38,8 @@ def simulate(
     model: str = "nonlinear",
     ramp: float = 60.0,
     stretching: str = "wheeler",
+    pressure_method: str = "auto",
+    pressure_rule: str = "vertex+centre",
     supplementary: Supplementary | None = None,
     initial_displacement: Sequence[float] | FloatArray = (0.0,) * 6,
     initial_velocity: Sequence[float] | FloatArray = (0.0,) * 6,
@@ -52,7 +54,9 @@ def simulate(
     `speed` [m/s]; `duration` [s] after a `ramp` [s] over which the waves grow by ½(1 − cos(π t/ramp));
     `time_step` [s]; `model` "nonlinear" integrates the pressure over the instantaneous wetted
     surface, "linear" takes restoring and Froude-Krylov load about rest; radiation and diffraction are
-    linear in both. The ship is held at `initial_displacement` (6,) [m, rad] until t = 0.
+    linear in both. `pressure_method` and `pressure_rule` are `method` and `rule` of `pressure_force`: how the
+    waves are summed over the wetted surface, and where on a panel. The ship is held at
+    `initial_displacement` (6,) [m, rad] until t = 0.
 
     The run ends early where |roll| exceeds `capsize_angle` [rad] (0 = never), where the motion
     diverges, or on an interrupt; `History.outcome` says which. `progress(done, total)` is told the
@@ -70,6 +74,8 @@ def simulate(
         model=model,
         ramp=ramp,
         stretching=stretching,
+        pressure_method=pressure_method,
+        pressure_rule=pressure_rule,
         supplementary=supplementary,
         initial_displacement=[initial_displacement],
         initial_velocity=[initial_velocity],
@@ -93,6 +99,8 @@ def simulate_batch(
     model: str = "nonlinear",
     ramp: float = 60.0,
     stretching: str = "wheeler",
+    pressure_method: str = "auto",
+    pressure_rule: str = "vertex+centre",
     supplementary: Supplementary | None = None,
     initial_displacement: ArrayLike | Sequence[ArrayLike] = (0.0,) * 6,
     initial_velocity: ArrayLike | Sequence[ArrayLike] = (0.0,) * 6,
@@ -123,6 +131,8 @@ def simulate_batch(
         capsize_angle=capsize_angle,
         model=model,
         stretching=stretching,
+        pressure_method=pressure_method,
+        pressure_rule=pressure_rule,
     )
     database.require_for(ship)
     start = (
@@ -139,6 +149,8 @@ def simulate_batch(
         ramp=ramp,
         model=model,
         stretching=stretching,
+        pressure_method=pressure_method,
+        pressure_rule=pressure_rule,
         capsize_angle=capsize_angle,
         case=json.dumps(case or {}, ensure_ascii=False, sort_keys=True),
         notes=notes,
