@@ -319,7 +319,7 @@ def test_the_quick_look_at_the_limits_misses_none() -> None:
         ({"time_step": 1e-4, "duration": 1e5}, "too many steps"),
         ({"database": "halifax.nc"}, "The database is of another kind"),
         ({"supplementary": {}}, "The supplementary is of another kind"),
-        ({"notes": "abc"}, "The notes are one text"),
+        ({"notes": "abc"}, "The notes are no list of texts"),
         ({"initial_displacement": "here"}, "initial_displacement is not six finite numbers"),
         ({"initial_displacement": (0, 0, 0)}, "initial_displacement is not six finite numbers"),
         ({"initial_velocity": (np.inf,) * 6}, "initial_velocity is not six finite numbers"),

@@ -61,7 +61,7 @@ class PressureIntegral:
     ) -> None:
         require_stretching(stretching)
         require_rule(rule)
-        if method not in METHODS:
+        if not (isinstance(method, str) and method in METHODS):
             raise PanelsimError("Unknown method", got=repr(method)[:60], allowed=" | ".join(METHODS))
         if not seas:
             raise PanelsimError("There is no sea", allowed="one or more; calm water is a sea without waves")

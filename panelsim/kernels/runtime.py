@@ -21,6 +21,9 @@ from panelsim.errors import PanelsimError
 # newer versions, no emptying of a print buffer at every launch where standard output is captured.
 ENVIRONMENT = {"ENABLE_TAICHI_HEADER_PRINT": "0", "TI_SKIP_VERSION_CHECK": "ON", "TI_ENABLE_PYBUF": "0"}
 
+# Taichi compiles one kernel at a time, and takes another's beginning for a part of the first.
+compiling = threading.RLock()
+
 _program: Any = None  # the Taichi program that was found or made fit for the kernels
 _process = 0  # the process it belongs to
 
@@ -30,7 +33,7 @@ def import_taichi() -> Any:
     """Import Taichi quietly; what the user's environment says about it stands."""
     for name, value in ENVIRONMENT.items():
         os.environ.setdefault(name, value)
-    with interrupts_held_back():
+    with compiling, interrupts_held_back():
         import taichi
 
     return taichi
@@ -69,10 +72,11 @@ def start() -> None:
         )
     if current is not None and current is _program:
         return
-    if current is None:
-        _initialise()
-    _require_exact_arithmetic()
-    _program, _process = impl.get_runtime().prog, os.getpid()
+    with compiling:
+        if impl.get_runtime().prog is None:
+            _initialise()
+        _require_exact_arithmetic()
+        _program, _process = impl.get_runtime().prog, os.getpid()
 
 
 def _initialise() -> None:
@@ -119,7 +123,8 @@ class Launch:
         """Run the kernel; raises PanelsimError as `start` does."""
         start()
         if self._program is not _program:  # at first, or another runtime since
-            self._prepare()
+            with compiling, interrupts_held_back():
+                self._prepare()
         self._program.launch_kernel(self._compiled, self._context)
 
     def _prepare(self) -> None:

@@ -203,19 +203,19 @@ def checked_poses(poses: FloatArray) -> FloatArray:
 
 def require_stretching(stretching: str) -> None:
     """Raise PanelsimError unless `stretching` is one of STRETCHINGS."""
-    if stretching not in STRETCHINGS:
+    if not (isinstance(stretching, str) and stretching in STRETCHINGS):
         raise PanelsimError(
             "The stretching of the wave pressure is not known",
-            got=stretching,
+            got=repr(stretching)[:60],
             allowed=", ".join(STRETCHINGS),
         )
 
 
 def require_rule(rule: str) -> None:
     """Raise PanelsimError unless `rule` is one of RULES."""
-    if rule not in RULES:
+    if not (isinstance(rule, str) and rule in RULES):
         raise PanelsimError(
-            "The rule of the pressure integral is not known", got=rule, allowed=", ".join(RULES)
+            "The rule of the pressure integral is not known", got=repr(rule)[:60], allowed=", ".join(RULES)
         )
 
 

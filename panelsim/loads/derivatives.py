@@ -4,6 +4,7 @@ import numpy as np
 
 from panelsim.conventions import CUT_RULES, FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.loads.arguments import instant_arguments
 from panelsim.loads.load import Instant
 from panelsim.loads.wetted_surface import WettedSurface
 from panelsim.seaway.seaways import CalmSeaway, Seaway
@@ -43,11 +44,8 @@ def pressure_stiffness(
     Raises PanelsimError for values that are no such numbers, angles beyond a turn, unknown names, and the
     rule "panel", whose load jumps and has no derivative.
     """
-    at = _checked_displacement(displacement)
-    for name, value in (("time", time), ("speed", speed)):
-        if not np.isfinite(value):
-            raise PanelsimError(f"The {name} is not a finite number", got=value)
-    if rule not in CUT_RULES:
+    at = instant_arguments(ship, seaway, time, displacement, speed)
+    if rule == "panel":
         raise PanelsimError(
             "This rule of the pressure integral gives no derivative", got=rule, allowed=", ".join(CUT_RULES)
         )
@@ -60,20 +58,3 @@ def pressure_stiffness(
     load = wetted.evaluate(Instant(time, 1.0, moved, np.zeros_like(moved))).reshape(len(SIDES), 6, 6)
     slope: FloatArray = np.einsum("s,sml->lm", WEIGHTS, load) / step
     return -slope
-
-
-def _checked_displacement(displacement: FloatArray | tuple[float, ...]) -> FloatArray:
-    try:
-        at = np.asarray(displacement, dtype=float)
-    except (TypeError, ValueError):
-        at = np.empty(0)
-    if at.shape != (6,) or not np.isfinite(at).all():
-        raise PanelsimError("The displacement is not six finite numbers", got=displacement)
-    if np.abs(at[3:]).max() > 2.0 * np.pi:
-        raise PanelsimError(
-            "The displacement turns the ship by more than a whole turn",
-            got=f"roll, pitch, yaw = {at[3:].tolist()} rad",
-            allowed="at most 2π rad",
-            remedy="give angles in rad, not in degrees",
-        )
-    return at

@@ -1,6 +1,7 @@
 """What a run must have before it is begun: values in range, and a time step that can carry it."""
 
-from collections.abc import Iterable, Iterator, Mapping
+import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -9,12 +10,13 @@ import numpy as np
 from panelsim.conventions import METHODS, RULES, STRETCHINGS, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
+from panelsim.loads.arguments import require_ship, require_word, ship_displacement, six_numbers
 from panelsim.loads.supplementary import Supplementary
+from panelsim.seaway.checks import is_number
 from panelsim.seaway.components import WaveComponents
-from panelsim.ship.ship import Ship
 
 MODELS = ("nonlinear", "linear")
-MOST_STEPS = 2_000_000  # a run keeps some 400 bytes a step
+MOST_STEPS = 2_000_000  # a run keeps some 600 bytes a step, 1000 while its history is made
 # RK4 stays stable to ω dt = 2.83, but at 2 it takes a quarter off a motion with every step.
 LONGEST_STEP = 2.0  # over the highest natural frequency of the ship
 # Two samples a period are the least that can show a wave at all.
@@ -57,8 +59,7 @@ def require_run(
         ("pressure method", pressure_method, METHODS),
         ("pressure rule", pressure_rule, RULES),
     ):
-        if word not in known:
-            raise PanelsimError(f"Unknown {name}", got=word, allowed=" | ".join(known))
+        require_word(name, word, known)
     bounds = {
         "time_step": (time_step, 1e-4, 5.0, "s"),
         "duration": (duration, time_step, 1e6, "s"),
@@ -85,13 +86,16 @@ def require_speed(speed: float) -> None:
 
 def require_seed(seed: int | None) -> None:
     """Raise PanelsimError unless the seed to remember is a whole number or None."""
-    if seed is not None and (isinstance(seed, bool) or not isinstance(seed, int | np.integer)):
-        raise PanelsimError("The seed is no whole number", got=repr(seed)[:60], allowed="an integer, or None")
+    whole = isinstance(seed, int | np.integer) and not isinstance(seed, bool)
+    if seed is not None and not (whole and -(2**63) <= seed < 2**63):
+        raise PanelsimError(
+            "The seed is no whole number of 64 bits", got=repr(seed)[:60], allowed="an integer, or None"
+        )
 
 
 def _require_between(name: str, value: float, low: float, high: float, unit: str) -> None:
     allowed = f"{low:g} to {high:g} {unit}"
-    if not isinstance(value, int | float | np.integer | np.floating):
+    if not is_number(value):
         raise PanelsimError(f"The {name} is not a number", got=repr(value)[:60], allowed=allowed)
     if not low <= value <= high:
         raise PanelsimError(f"The {name} is out of range", got=f"{value:g} {unit}", allowed=allowed)
@@ -131,38 +135,50 @@ def energy_share(components: WaveComponents, chosen: np.ndarray) -> float:
     return float(energy[chosen].sum() / energy.sum()) if energy.any() else 0.0
 
 
-def require_types(ship: object, database: object, supplementary: object, notes: object) -> None:
+def require_types(
+    ship: object, database: object, supplementary: object, notes: object, progress: object
+) -> None:
     """Raise PanelsimError for arguments that are names or tables of what they should be."""
+    require_ship(ship)
     wanted = {
-        "ship": (ship, Ship, "a Ship, as load_ship() makes it"),
         "database": (database, HydroDatabase, "a HydroDatabase, as database_for(ship) gives it"),
         "supplementary": (supplementary, Supplementary | None, "a Supplementary, or None"),
     }
     for name, (value, kind, allowed) in wanted.items():
         if not isinstance(value, kind):
             raise PanelsimError(f"The {name} is of another kind", got=repr(value)[:60], allowed=allowed)
-    if isinstance(notes, str):
-        raise PanelsimError("The notes are one text", got=repr(notes)[:60], allowed="a list of sentences")
-
-
-def require_seaway(seaway: object) -> None:
-    """Raise PanelsimError for what is no seaway."""
-    components, kind = getattr(seaway, "components", None), getattr(seaway, "kind", None)
-    if not (isinstance(components, WaveComponents) and isinstance(kind, str)):
+    if (
+        isinstance(notes, str)
+        or not isinstance(notes, Sequence)
+        or not all(isinstance(n, str) for n in notes)
+    ):
         raise PanelsimError(
-            "The seaway is of another kind",
-            got=repr(seaway)[:60],
-            allowed="a seaway, for example a RandomSeaway",
-            remedy="a ComponentSeaway makes one of wave components",
+            "The notes are no list of texts", got=repr(notes)[:60], allowed="a list of sentences"
         )
+    if progress is not None and not callable(progress):
+        raise PanelsimError(
+            "The progress is no function", got=repr(progress)[:60], allowed="progress(done, total), or None"
+        )
+
+
+def case_text(case: Mapping[str, Any] | None) -> str:
+    """The case to keep as JSON; PanelsimError for what JSON cannot hold."""
+    try:
+        return json.dumps(case or {}, ensure_ascii=False, sort_keys=True)
+    except (TypeError, ValueError) as error:
+        raise PanelsimError(
+            "The case cannot be kept",
+            got=str(error)[:200],
+            allowed="tables, lists, texts, numbers, true and false, as in a case file",
+        ) from None
 
 
 def sequence_of(name: str, values: object, members: int | None = None) -> list[Any]:
     """A sequence as a list, one entry for each of the members of a batch, else PanelsimError."""
     allowed = "a sequence" if members is None else f"a sequence of {members}, one for each seaway"
-    if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, Iterable):
+    if isinstance(values, (str, bytes, Mapping)) or not is_iterable(values):
         raise PanelsimError(f"The {name} are no sequence", got=repr(values)[:60], allowed=allowed)
-    listed = list(values)
+    listed = list(values)  # type: ignore[call-overload]
     if not listed:
         raise PanelsimError(f"There are no {name}", got="an empty sequence", allowed="one or more")
     if members not in (None, len(listed)):
@@ -172,16 +188,32 @@ def sequence_of(name: str, values: object, members: int | None = None) -> list[A
     return listed
 
 
-def six_numbers_each(name: str, values: object, members: int) -> FloatArray:
-    """Six finite numbers for each member (B, 6), given once (6,) or for each; else PanelsimError."""
-    try:
-        array = np.array(values, dtype=float)
-    except (TypeError, ValueError):
-        array = np.empty(0)
-    if array.shape not in ((6,), (members, 6)) or not np.isfinite(array).all():
+def is_iterable(values: object) -> bool:
+    """Whether there is something to list; arrays without a dimension say so but have nothing."""
+    return (
+        isinstance(values, Iterable) and np.ndim(values) > 0
+        if isinstance(values, np.ndarray)
+        else isinstance(values, Iterable)
+    )
+
+
+def six_numbers_each(name: str, values: object, members: int, *, angles: bool) -> FloatArray:
+    """Six finite numbers for each member (B, 6), given once (6,) or for each; else PanelsimError.
+
+    With `angles` the last three are angles of no more than a turn.
+    """
+    check = ship_displacement if angles else six_numbers
+    rows = list(values) if is_iterable(values) else [values]  # type: ignore[call-overload]
+    if not any(is_iterable(row) for row in rows):
+        return np.tile(check(name, values), (members, 1))
+    if len(rows) != members:
         raise PanelsimError(
-            f"The {name} is not six finite numbers",
-            got=values,
-            allowed="(6,)" if members == 1 else f"(6,), or ({members}, 6): six for each member of the batch",
+            f"The {name} is not that of each member of the batch",
+            got=f"{len(rows)} rows",
+            allowed=f"(6,), or ({members}, 6)",
         )
-    return np.array(np.broadcast_to(array, (members, 6)))
+    checked = []
+    for i, row in enumerate(rows):
+        with about_member(i, members):
+            checked.append(check(name, row))
+    return np.array(checked)

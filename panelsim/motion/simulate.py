@@ -1,7 +1,6 @@
 """A run, or a batch of runs: from a ship and a sea to a history."""
 
-import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -9,14 +8,16 @@ from numpy.typing import ArrayLike
 
 from panelsim.conventions import FloatArray
 from panelsim.hydro.database import HydroDatabase
+from panelsim.loads.arguments import require_seaway
 from panelsim.loads.supplementary import Supplementary
 from panelsim.motion.batch import Batch, Member
 from panelsim.motion.history import History
 from panelsim.motion.march import Progress
 from panelsim.motion.requirements import (
     about_member,
+    case_text,
+    is_iterable,
     require_run,
-    require_seaway,
     require_seed,
     require_speed,
     require_types,
@@ -121,7 +122,8 @@ def simulate_batch(
 
     Raises PanelsimError for bad arguments, with the number of the member, and for a database of another ship.
     """
-    require_types(ship, database, supplementary, notes)
+    require_types(ship, database, supplementary, notes, progress)
+    kept_case = case_text(case)
     members = _members(seaways, speed, seeds)
     require_run(
         members=len(members),
@@ -136,8 +138,8 @@ def simulate_batch(
     )
     database.require_for(ship)
     start = (
-        six_numbers_each("initial_displacement", initial_displacement, len(members)),
-        six_numbers_each("initial_velocity", initial_velocity, len(members)),
+        six_numbers_each("initial_displacement", initial_displacement, len(members), angles=True),
+        six_numbers_each("initial_velocity", initial_velocity, len(members), angles=False),
     )
     batch = Batch(
         ship=ship,
@@ -152,7 +154,7 @@ def simulate_batch(
         pressure_method=pressure_method,
         pressure_rule=pressure_rule,
         capsize_angle=capsize_angle,
-        case=json.dumps(case or {}, ensure_ascii=False, sort_keys=True),
+        case=kept_case,
         notes=notes,
     )
     return batch.run(*start, progress)
@@ -162,7 +164,9 @@ def _members(seaways: object, speed: object, seeds: object) -> list[Member]:
     """Checked seaways with their speeds [m/s] and seeds."""
     seas = sequence_of("seaways", seaways)
     count = len(seas)
-    speeds = sequence_of("speeds", speed if isinstance(speed, Iterable) else [speed] * count, count)
+    speeds = sequence_of(
+        "speeds", speed if is_iterable(speed) and not isinstance(speed, str) else [speed] * count, count
+    )
     listed_seeds = sequence_of("seeds", [None] * count if seeds is None else seeds, count)
     members = []
     for i, (sea, own_speed, seed) in enumerate(zip(seas, speeds, listed_seeds, strict=True)):
