@@ -81,6 +81,7 @@ class _Launched:
             starts,
             np.zeros((max(grid.scratch_rows for grid in grids), LANES)),
             self.state,
+            *hull.cutting,
             self._exchange,
             *hull.arguments,
             grids[0].plan.depth.terms,
