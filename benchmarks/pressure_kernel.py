@@ -152,8 +152,9 @@ def run(areas: Iterable[float], counts: Iterable[int]) -> Results:
                 results.apart[name] = max(share, results.apart.get(name, 0.0))
             cells = results.cells[size, count] = time_methods(setting, evaluate)
             results.single = results.single or call_overhead(setting, evaluate, cells)
-            line = ", ".join(f"{name} {cell}" for name, cell in cells.items())
-            print(f"{size} panels, {count} waves: {line}", flush=True)
+            print(f"{size} panels, {count} waves:")
+            for name, cell in cells.items():
+                print(f"  {name:26}{cell}", flush=True)
     return results
 
 
@@ -202,7 +203,8 @@ def notes(results: Results, with_c: bool) -> list[str]:
         f"A call with one pose costs more than a pose among many, us: {_told(results.single, '.0f')}.",
         "Plain sums take every panel, wet or dry; panelsim's methods cut panels at the surface and pass by"
         f" points above the highest possible crest. Wet at rest: {wet} panels.",
-        f"Largest difference from the NumPy sum, share of the waves' load: {_told(results.apart, '.1e')}.",
+        "Check that all compute the same, largest difference from the NumPy sum as a share of the waves' load"
+        f" (it takes panels whole, ours are cut): {_told(results.apart, '.1e')}.",
         machine(with_c),
         *([] if with_c else ["There is no gcc here: the C sum and the ratios to it are left out."]),
     ]
@@ -236,7 +238,9 @@ def plot(results: Results, path: Path) -> None:
     from matplotlib import pyplot
 
     sizes = list(results.tables)
-    figure, axes = pyplot.subplots(1, len(sizes), figsize=(4.5 * len(sizes), 4.0), sharey=True, squeeze=False)
+    figure, axes = pyplot.subplots(
+        1, len(sizes), figsize=(4.5 * len(sizes), 4.0), sharey=True, squeeze=False, layout="constrained"
+    )
     for axis, size in zip(axes[0], sizes, strict=True):
         counts = [count for panels, count in results.cells if panels == size]
         for name in results.cells[size, counts[0]]:
@@ -248,10 +252,13 @@ def plot(results: Results, path: Path) -> None:
                 label=name,
             )
         axis.set(title=f"{size} panels", xlabel="wave components")
+        axis.set_xticks(counts, [str(count) for count in counts], minor=False)
+        axis.minorticks_off()
         axis.grid(visible=True, which="major", alpha=0.4)
     axes[0, 0].set_ylabel("CPU time of one evaluation [µs]")
-    axes[0, 0].legend(fontsize="small")
-    figure.tight_layout()
+    figure.legend(
+        *axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize="small"
+    )
     figure.savefig(path, dpi=130)
     pyplot.close(figure)
 
@@ -263,6 +270,8 @@ def main() -> None:
         "--write", action="store_true", help=f"write {REPORT.name} and its plot into reports/"
     )
     options = parser.parse_args()
+    if options.quick and options.write:
+        parser.error("--quick measures too little for the report: leave out one of --quick and --write")
     with TemporaryDirectory() as empty:
         os.environ["TI_OFFLINE_CACHE_FILE_PATH"] = empty  # so that the first calls compile
         results = run(*((QUICK_AREAS, QUICK_SEAS) if options.quick else (PANEL_AREAS, SEAS)))

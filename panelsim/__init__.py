@@ -71,6 +71,8 @@ _HOMES = {
     "HydroDatabase": "hydro.database",
     "database_for": "hydro.store",
     "pressure_force": "loads.wetted_surface",
+    "WettedSurface": "loads.wetted_surface",
+    "Instant": "loads.load",
     "pressure_stiffness": "loads.derivatives",
     "hull_pressure": "loads.hull_pressure",
     "HullPressure": "loads.hull_pressure",
@@ -105,7 +107,9 @@ if TYPE_CHECKING:
     from panelsim.loads.derivatives import pressure_stiffness as pressure_stiffness
     from panelsim.loads.hull_pressure import HullPressure as HullPressure
     from panelsim.loads.hull_pressure import hull_pressure as hull_pressure
+    from panelsim.loads.load import Instant as Instant
     from panelsim.loads.supplementary import Supplementary as Supplementary
+    from panelsim.loads.wetted_surface import WettedSurface as WettedSurface
     from panelsim.loads.wetted_surface import pressure_force as pressure_force
     from panelsim.motion.history import History as History
     from panelsim.motion.simulate import simulate as simulate

@@ -115,6 +115,15 @@ class CaseFile(Section):
     supplementary: SupplementarySection = SupplementarySection()
 
     @model_validator(mode="after")
+    def _stokes(self) -> "CaseFile":
+        if self.seaway.wave_theory == "stokes" and self.run.pressure_method == "grid":
+            raise ValueError(
+                "a Stokes wave goes on no grid: set run.pressure_method to auto or direct,"
+                " or seaway.wave_theory to linear"
+            )
+        return self
+
+    @model_validator(mode="after")
     def _course(self) -> "CaseFile":
         if self.seaway.needs_course and self.run.ship_heading_deg is None:
             raise ValueError(

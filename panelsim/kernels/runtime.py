@@ -93,15 +93,20 @@ def _initialise() -> None:
 
 
 def _require_exact_arithmetic() -> None:
-    """Raise PanelsimError unless the live runtime is a CPU in double precision without fast-math."""
+    """Raise PanelsimError unless the live runtime computes as the kernels need it."""
     ti = import_taichi()
     config = ti.lang.impl.current_cfg()
-    if config.arch in (ti.x64, ti.arm64) and config.default_fp == ti.f64 and not config.fast_math:
+    if (
+        config.arch in (ti.x64, ti.arm64)
+        and (config.default_fp, config.default_ip) == (ti.f64, ti.i32)
+        and not (config.fast_math or config.debug)
+    ):
         return
     raise PanelsimError(
         "A Taichi runtime with other settings is alive in this process",
-        got=f"arch={config.arch}, default_fp={config.default_fp}, fast_math={config.fast_math}",
-        allowed="arch=cpu, default_fp=f64, fast_math=False",
+        got=f"arch={config.arch}, default_fp={config.default_fp}, default_ip={config.default_ip}, "
+        f"fast_math={config.fast_math}, debug={config.debug}",
+        allowed="arch=cpu, default_fp=f64, default_ip=i32, fast_math=False, debug=False",
         remedy="let panelsim start Taichi first, pass these settings to ti.init, or use another process; "
         "TI_ARCH, TI_DEFAULT_FP and TI_FAST_MATH in the environment must not say otherwise",
     )

@@ -103,6 +103,12 @@ class WaveTables:
         """Of the elevation of first order [m]."""
         return float(np.sqrt(0.5 * np.sum(self.amplitude**2)))
 
+    def felt(self) -> "WaveTables":
+        """The waves whose energy is above zero, as computers count."""
+        high = self.amplitude**2 > 0.0
+        columns = ("amplitude", "wavenumber_x", "wavenumber_y", "wavenumber", "encounter_frequency", "phase")
+        return replace(self, **{name: getattr(self, name)[high] for name in columns})
+
     def turned(self, angle: float) -> Self:
         """The same waves in axes turned by `angle` [rad] about the vertical; by none, to the bit."""
         cos, sin = np.cos(angle), np.sin(angle)

@@ -6,7 +6,7 @@ from panelsim.conventions import CUT_RULES, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.loads.arguments import instant_arguments
 from panelsim.loads.load import Instant
-from panelsim.loads.wetted_surface import WettedSurface
+from panelsim.loads.wetted_surface import WettedSurface, method_of_one_call
 from panelsim.seaway.seaways import CalmSeaway, Seaway
 from panelsim.ship.ship import Ship
 
@@ -29,7 +29,7 @@ def pressure_stiffness(
     *,
     speed: float = 0.0,
     stretching: str = "wheeler",
-    method: str = "direct",
+    method: str = "auto",
     rule: str = "vertex+centre",
 ) -> FloatArray:
     """Stiffness −∂F/∂η (6, 6) of buoyancy and wave load, row a load, column a motion [N/m, N, N m].
@@ -42,9 +42,12 @@ def pressure_stiffness(
     By differences, of which half steps cancel the kink that the load has where panels end at the water:
     there the flare, and so the stiffness, differs from one side to the other, and this is the mean of both.
     Raises PanelsimError for values that are no such numbers, angles beyond a turn, unknown names, and the
-    rule "panel", whose load jumps and has no derivative.
+    rule "panel", whose load jumps and has no derivative. The waves are summed directly: the small steps would
+    show what a grid is off.
     """
     at = instant_arguments(ship, seaway, time, displacement, speed)
+    if method == "grid":
+        raise PanelsimError("A grid gives no derivative", got=repr(method), allowed="auto | direct | oracle")
     if rule == "panel":
         raise PanelsimError(
             "This rule of the pressure integral gives no derivative", got=rule, allowed=", ".join(CUT_RULES)
@@ -53,7 +56,12 @@ def pressure_stiffness(
     moved = (at + SIDES[:, None, None] * np.diag(step)).reshape(-1, 6)
     count = len(moved)
     wetted = WettedSurface(
-        ship, [seaway.components] * count, [speed] * count, stretching=stretching, method=method, rule=rule
+        ship,
+        [seaway.components] * count,
+        [speed] * count,
+        stretching=stretching,
+        method=method_of_one_call(method),
+        rule=rule,
     )
     load = wetted.evaluate(Instant(time, 1.0, moved, np.zeros_like(moved))).reshape(len(SIDES), 6, 6)
     slope: FloatArray = np.einsum("s,sml->lm", WEIGHTS, load) / step

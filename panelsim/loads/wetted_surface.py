@@ -52,7 +52,6 @@ class WettedSurface:
             rule=rule,
             method=method,
         )
-        self._poses = np.empty((len(components), 8))
 
     @property
     def methods(self) -> tuple[str, ...]:
@@ -61,7 +60,7 @@ class WettedSurface:
 
     def in_ship_axes(self, instant: Instant) -> FloatArray:
         """Force and moment (B, 6) about the CG in ship axes [N, N m]."""
-        poses = self._poses
+        poses = np.empty((len(instant.displacement), 8))
         poses[:, 0] = instant.time
         poses[:, 1] = instant.wave_factor
         poses[:, 2:] = instant.displacement
