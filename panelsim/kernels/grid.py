@@ -87,14 +87,15 @@ class _Launched:
         self._hull = hull
         self._exchange = hull.exchange(np.zeros((len(grids), 8)))
         self.state = hull.state()
-        components, tables, starts = at.stacked(grids)
+        each = {id(grid): grid for grid in grids}  # poses in one sea share its grid
+        components, tables, starts = at.stacked(list(each.values()))
         self._launch = runtime.Launch(
             integrate_on_grid,
             hull.panels.blocks[hull.rule],
             hull.panels.panels,
             components,
             tables,
-            starts,
+            starts[[list(each).index(id(grid)) for grid in grids]],
             np.zeros((max(grid.scratch_rows for grid in grids), LANES)),
             self.state,
             *hull.cutting,
