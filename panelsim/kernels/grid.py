@@ -31,11 +31,13 @@ class GridMethod:
 
     def heads(self, poses: FloatArray) -> FloatArray:
         """Loads (B, 6) over ρ g; a single sea serves any number of poses (B, 8)."""
-        sectors = np.mod(np.rint(poses[:, YAW] / SECTOR), SECTORS).astype(np.int64)
-        if not np.array_equal(sectors, self._sectors):
+        sectors = np.rint(poses[:, YAW] / SECTOR).astype(np.int64) % SECTORS
+        if sectors.tobytes() != self._arranged:
             self._arrange(sectors)
-        if sectors.any():
+        if self._turns:
             poses = _turned(poses, sectors * SECTOR)
+        if len(self._launched) == 1:
+            return self._launched[0][1].heads(poses)
         loads = np.empty((len(poses), 6))
         for members, launched in self._launched:
             loads[members] = launched.heads(poses[members])
@@ -48,7 +50,7 @@ class GridMethod:
 
     def _arrange(self, sectors: NDArray[np.int64]) -> None:
         """Launch together the poses whose grids are of one make."""
-        self._sectors = sectors
+        self._arranged, self._turns = sectors.tobytes(), bool(sectors.any())
         seas = np.broadcast_to(np.arange(len(self._seas)), len(sectors))
         grids = [self._grid(int(sea), int(sector)) for sea, sector in zip(seas, sectors, strict=True)]
         self._launched = [
