@@ -9,16 +9,17 @@ import numpy as np
 
 from panelsim.conventions import FloatArray
 from panelsim.hydro.database import HydroDatabase
-from panelsim.loads.load import Instant, Load
+from panelsim.loads.load import Load
 from panelsim.loads.radiation import Radiation
 from panelsim.loads.supplementary import Supplementary
 from panelsim.loads.wetted_surface import WettedSurface
-from panelsim.motion.equations import EquationsOfMotion
+from panelsim.motion.equations import EquationsOfMotion, ramp_factor
 from panelsim.motion.history import History
-from panelsim.motion.march import Limits, MemberRecord, Progress, march, ramp_factor
+from panelsim.motion.march import Limits, MemberRecord, Progress, Record, march, require_finite_start
 from panelsim.motion.notes import run_notes
 from panelsim.motion.requirements import about_member, require_step_for_ship, require_step_for_waves
-from panelsim.motion.run_loads import run_loads
+from panelsim.motion.run_loads import RunLoads, run_loads
+from panelsim.motion.steppers import make_stepper
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.translating import TranslatingSeaway
 from panelsim.ship.ship import Ship
@@ -46,6 +47,7 @@ class Batch:
     time_step: float
     ramp: float
     model: str
+    stepper: str
     stretching: str
     pressure_method: str
     pressure_rule: str
@@ -58,33 +60,37 @@ class Batch:
     ) -> tuple[History, ...]:
         """Step all members from displacement and velocity (B, 6) to their ends."""
         begin = clock.process_time()
-        loads = self._loads()
-        equations = self._equations(loads)
+        found = self._loads()
+        equations = self._equations(found.loads)
+        stepper = make_stepper(self.stepper, equations, found.known, self.time_step)
         # The first evaluation compiles the kernel; its time is no part of the time loop.
-        equations.evaluate_loads(Instant(0.0, 0.0, displacement, velocity))
+        state = stepper.start(displacement, velocity)
+        require_finite_start(state)
+        # Whole steps that cover all of it; rounding of the quotient is no step.
+        steps = math.ceil((self.ramp + self.duration) / self.time_step - 1e-9)
+        record = Record(steps + 1, len(self.members), equations.load_names)
+        record.add(state)
         compiled = clock.process_time()
-        record = march(
-            equations,
-            displacement,
-            velocity,
-            # Whole steps that cover all of it; rounding of the quotient is no step.
-            steps=math.ceil((self.ramp + self.duration) / self.time_step - 1e-9),
+        march(
+            stepper,
+            state,
+            record,
+            steps=steps,
             time_step=self.time_step,
-            ramp=self.ramp,
             limits=Limits(self.capsize_angle, heave=0.5 * self.ship.length, drift=100.0 * self.ship.length),
             progress=progress,
         )
         loop = clock.process_time() - compiled
         runs = [record.of(i) for i in range(len(self.members))]
         rows = sum(run.count for run in runs)
-        wetted = [load for load in loads if isinstance(load, WettedSurface)]
+        wetted = [load for load in found.loads if isinstance(load, WettedSurface)]
         methods = wetted[0].methods if wetted else ("none",) * len(runs)
         return tuple(
             self._history(member, run, method, loop * run.count / rows, (compiled - begin) / len(runs))
             for member, run, method in zip(self.members, runs, methods, strict=True)
         )
 
-    def _loads(self) -> list[Load]:
+    def _loads(self) -> RunLoads:
         """All loads but radiation."""
         return run_loads(
             self.ship,
@@ -101,7 +107,7 @@ class Batch:
     def _equations(self, loads: Sequence[Load]) -> EquationsOfMotion:
         """The equations of motion of all members; PanelsimError where the time step is too long."""
         ship, members = self.ship, self.members
-        radiation = Radiation(self.database, [member.speed for member in members], self.time_step)
+        radiation = Radiation(self.database, [member.speed for member in members])
         require_step_for_ship(
             self.time_step,
             ship.inertia + radiation.added_mass_infinite,
@@ -111,7 +117,7 @@ class Batch:
             encounter = member.waves.encounter_frequency(member.speed, ship.gravity)
             with about_member(i, len(members)):
                 require_step_for_waves(self.time_step, member.waves, encounter)
-        return EquationsOfMotion(ship.inertia, loads, radiation)
+        return EquationsOfMotion(ship.inertia, loads, radiation, self.ramp)
 
     def _history(
         self, member: Member, run: MemberRecord, method: str, cpu_seconds: float, jit_seconds: float

@@ -14,6 +14,7 @@ from panelsim.seaway.components import WaveComponents
 from panelsim.ship.ship import Ship
 
 MODELS = ("nonlinear", "linear")
+STEPPERS = ("exponential", "rk4", "ab3")
 MOST_STEPS = 2_000_000  # a run keeps some 400 bytes a step
 # RK4 stays stable to ω dt = 2.83, but at 2 it takes a quarter off a motion with every step.
 LONGEST_STEP = 2.0  # over the highest natural frequency of the ship
@@ -46,6 +47,7 @@ def require_run(
     ramp: float,
     capsize_angle: float,
     model: str,
+    stepper: str,
     stretching: str,
     pressure_method: str,
     pressure_rule: str,
@@ -53,6 +55,7 @@ def require_run(
     """Raise PanelsimError for a value that no batch of runs can have; SI units and radians."""
     for name, word, known in (
         ("model", model, MODELS),
+        ("stepper", stepper, STEPPERS),
         ("wave stretching", stretching, STRETCHINGS),
         ("pressure method", pressure_method, METHODS),
         ("pressure rule", pressure_rule, RULES),
