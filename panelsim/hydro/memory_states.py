@@ -117,18 +117,19 @@ def _fit(time: FloatArray, group: _Group, integral: FloatArray) -> MemoryStates:
     """The smallest fit (n, m) of a kernel over its scales that is as good as wanted, else the best."""
     left, size, right = np.linalg.svd(_hankel(group.kernel, 0))
     later = left.T @ _hankel(group.kernel, _STEP) @ right.T
-    best: MemoryStates | None = None
+    motions = len(integral)
+    best = MemoryStates(np.zeros((0, 0)), np.zeros((0, motions)), np.zeros((motions, 0)), np.inf)
     for order in _ORDERS:
         root = np.sqrt(size[:order])
         step = later[:order, :order] / np.outer(root, root)
-        first = root[:, None] * right[:order, : len(integral)]
+        first = root[:, None] * right[:order, :motions]
         poles, entrance = _modes(step, first, time[_STEP] - time[0])
+        if len(poles) + np.count_nonzero(poles.imag) < 2 * motions:
+            continue  # too few to meet the conditions
         fit = _weighted(time, group.kernel, integral, poles, entrance)
-        if best is None or fit.error < best.error:
-            best = fit
+        best = min(best, fit, key=lambda states: states.error)
         if best.error <= _WANTED_ERROR:
             break
-    assert best is not None
     return best
 
 

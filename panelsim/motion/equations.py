@@ -67,7 +67,8 @@ def finite_rows(*values: FloatArray) -> BoolArray | None:
     if all([math.isfinite(np.vdot(value, value)) for value in values]):
         return None
     rows = [np.isfinite(value).all(axis=tuple(range(1, value.ndim))) for value in values]
-    return np.logical_and.reduce(rows)
+    finite: BoolArray = np.logical_and.reduce(rows)
+    return None if finite.all() else finite
 
 
 def held(values: FloatArray, running: BoolArray) -> FloatArray:

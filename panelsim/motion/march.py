@@ -1,7 +1,7 @@
 """The time loop: from the state at rest to the end of the run, or to whatever ends it before."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -66,7 +66,7 @@ class Record:
     def __init__(self, size: int, members: int, load_names: tuple[str, ...]) -> None:
         self.load_names = load_names
         self.count = 0
-        self.state: State | None = None
+        self.size = size
         self.running = np.ones(members, dtype=bool)
         self._ends = [(0, "", "")] * members
         self._columns = [np.empty((size, members, 6)) for _ in range(3)]
@@ -78,8 +78,18 @@ class Record:
         for column, value in zip(self._columns, signals, strict=True):
             column[self.count] = value
         self._loads[self.count] = state.loads
-        self.state = state
         self.count += 1
+
+    def fill(self, columns: Sequence[FloatArray], loads: FloatArray) -> None:
+        """Put the instants of an earlier run in front: displacement, … (T, B, 6) and loads (T, B, L, 6)."""
+        self.count = len(loads)
+        for column, values in zip(self._columns, columns, strict=True):
+            column[: self.count] = values
+        self._loads[: self.count] = loads
+
+    def drop_after(self, step: int) -> None:
+        """Forget instants after so many steps: an interrupt may fall between an instant and its state."""
+        self.count = min(self.count, step + 1)
 
     def end(self, member: int, outcome: str, detail: str = "") -> None:
         """End the run of a member that runs, with the instants kept so far; later ones are not its own."""
@@ -127,29 +137,35 @@ def march(
     time_step: float,
     limits: Limits,
     progress: Progress | None = None,
-) -> None:
+) -> State:
     """Step a batch of runs from a state until `steps` steps are done, and keep every instant in the record.
+
+    Returns the state of the last instant that the record keeps.
 
     A member ends early where a limit is exceeded or its motion is no longer finite, all of them on an
     interrupt. A member that has ended is held at rest, whatever it costs: the others go on as if it were
     not there.
     """
-    begin = state.step * time_step
+    kept, begin = state, state.step * time_step
     try:
         for step in range(state.step, steps):
             begin, end = step * time_step, (step + 1) * time_step
-            after = stepper.step(state)
+            after = stepper.step(kept)
             _end_where_not_finite(record, after, end)
-            _end_beyond_limits(record, limits, after.displacement, state.displacement, end)
+            _end_beyond_limits(record, limits, after.displacement, kept.displacement, end)
             if not record.running.any():
-                return
-            state = after if record.running.all() else after.holding(record.running)
+                return kept
+            if not record.running.all():
+                after = after.holding(record.running)
             if progress is not None and step % STEPS_BETWEEN_PROGRESS == 0:
                 progress(begin, steps * time_step)
-            record.add(state)
+            record.add(after)
+            kept = after
         record.end_all("finished")
     except KeyboardInterrupt:
+        record.drop_after(kept.step)
         record.end_all("interrupted", f"stopped by the user at t = {begin:.6g} s")
+    return kept
 
 
 def require_finite_start(state: State) -> None:

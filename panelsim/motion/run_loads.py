@@ -9,7 +9,7 @@ from panelsim.conventions import ComplexArray
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.diffraction import diffraction_load
 from panelsim.loads.froude_krylov import froude_krylov_transfer
-from panelsim.loads.linear_waves import LinearWaveLoad
+from panelsim.loads.linear_waves import LinearWaveLoad, wave_turning
 from panelsim.loads.load import Load
 from panelsim.loads.restoring import Restoring
 from panelsim.loads.supplementary import Supplementary
@@ -70,8 +70,8 @@ def run_loads(
             of_hull[1 if nonlinear else 0].name: -np.hstack([ship.hydrostatics.stiffness, by_velocity]),
             supplementary.name: -np.hstack([supplementary.stiffness_matrix, supplementary.damping_matrix]),
         },
-        encounter=[
-            sea.encounter_frequency(speed, ship.gravity)
+        turning=[
+            wave_turning(sea, speed, gravity=ship.gravity, follows_ship=nonlinear)
             for sea, speed in zip(components, speeds, strict=True)
         ],
         amplitudes=[

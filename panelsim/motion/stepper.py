@@ -33,7 +33,10 @@ class State:
 
     def holding(self, running: BoolArray) -> "State":
         """The state with all members at rest that do not run (B,)."""
-        return replace(self, motion=held(self.motion, running), past=held(self.past, running))
+        motion, past, acceleration = (
+            held(value, running) for value in (self.motion, self.past, self.acceleration)
+        )
+        return replace(self, motion=motion, past=past, acceleration=acceleration)
 
 
 class Stepper(Protocol):
