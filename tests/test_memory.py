@@ -139,7 +139,7 @@ def test_states_reproduce_added_mass_and_damping(memory: MemoryFunctions, states
 
 @pytest.mark.parametrize("name", ["frigate", "s175", "wigley_iii", "box", "sphere"])
 def test_few_states_do_for_every_kind_of_hull(name: str) -> None:
-    """Within 0.3 % of the peak, where 0.1 % is asked for; motions in and out of the centreplane stay apart."""
+    """Within 0.3 % of the peak, where 0.1 % is asked for; planes stay apart."""
     database = database_for(load_ship(name))
     states = memory_states(memory_functions(database))
     print(f"{name}: {states.count} states, {100 * states.error:.2f} % off")
@@ -156,7 +156,9 @@ def test_few_states_do_for_every_kind_of_hull(name: str) -> None:
 
 def test_a_kernel_that_is_no_sum_of_exponentials_is_refused(memory: MemoryFunctions) -> None:
     """Noise has no poles."""
-    noise = np.random.default_rng(1).normal(size=memory.momentum_kernel.shape) * np.abs(memory.momentum_kernel)
+    noise = np.random.default_rng(1).normal(size=memory.momentum_kernel.shape) * np.abs(
+        memory.momentum_kernel
+    )
     ragged = replace(memory, momentum_kernel=memory.momentum_kernel + 0.3 * noise)
     with pytest.raises(PanelsimError, match="no sum of a few decaying exponentials") as refusal:
         memory_states(ragged)

@@ -1,4 +1,4 @@
-"""Restart: a run that goes on is, bit for bit, the run that never stopped; a history of another run is refused."""
+"""Restart: a run that goes on is, bit for bit, the run that never stopped; one of another run is refused."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -32,21 +32,22 @@ GIVEN: dict[str, Any] = {
 }
 
 
-@pytest.mark.parametrize("model", ["nonlinear", "linear"])
-@pytest.mark.parametrize("stepper", STEPPERS)
+@pytest.mark.parametrize(
+    ("stepper", "model"), [*[(name, "nonlinear") for name in STEPPERS], ("exponential", "linear")]
+)
 def test_a_run_goes_on_as_if_it_had_not_stopped(
     stepper: str, model: str, run_halifax: Run, tmp_path: Path
 ) -> None:
     """Cut in the ramp, at each of the first steps, at the end of the ramp and later; through a file once."""
-    whole = run_halifax(SEA, duration=6.0, stepper=stepper, model=model, **GIVEN)
-    for steps in (1, 2, 3, 8, 9, 10, 31):
+    whole = run_halifax(SEA, duration=2.0, stepper=stepper, model=model, **GIVEN)
+    for steps in (1, 2, 8, 10):
         given = GIVEN | {"stepper": stepper, "model": model}
         # The ramp is part of what a run is; so its beginning is told by an interrupt.
         begun = interrupted_after(steps, run_halifax, **given)
         assert len(begun.time) == steps + 1
-        if steps == 9:
+        if steps == 8:
             begun = History.load(begun.save(tmp_path / "begun.nc"))
-        resumed = run_halifax(SEA, duration=6.0, resume=begun, **given)
+        resumed = run_halifax(SEA, duration=2.0, resume=begun, **given)
         assert resumed.outcome == "finished"
         assert resumed.same_bits(whole), steps
     # It did move, and another step would not be the same.
@@ -67,7 +68,7 @@ def interrupted_after(steps: int, run: Run, **given: Any) -> History:
 
     between, march.STEPS_BETWEEN_PROGRESS = march.STEPS_BETWEEN_PROGRESS, 1
     try:
-        return run(SEA, duration=6.0, progress=stop, **given)
+        return run(SEA, duration=2.0, progress=stop, **given)
     finally:
         march.STEPS_BETWEEN_PROGRESS = between
 
@@ -156,7 +157,7 @@ def test_histories_of_a_batch_are_cut_at_one_time(
 ) -> None:
     other = run_halifax(SEA, duration=1.5, **GIVEN)
     given = GIVEN | {"database": halifax_database, "supplementary": springs, "duration": 3.0}
-    with pytest.raises(PanelsimError, match="Member 2 of 2: .* unequal length"):
+    with pytest.raises(PanelsimError, match=r"Member 2 of 2: .* unequal length"):
         simulate_batch(halifax, [SEA, SEA], resume=[begun, other], **given)
     with pytest.raises(PanelsimError, match="not one of the histories to go on from for each seaway"):
         simulate_batch(halifax, [SEA, SEA], resume=[begun], **given)

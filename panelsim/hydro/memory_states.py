@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import block_diag
+from scipy.linalg import block_diag, qr
 
-from panelsim.conventions import DOF_NAMES, FloatArray
+from panelsim.conventions import DOF_NAMES, FloatArray, IntArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.memory import MemoryFunctions
 
-# Of the samples of R, 0.032 s apart for a frigate, which sends out waves of 2.5 s or more: what one step of the
-# pencil spans, and the stride of its rows and columns. With larger matrices the linear algebra would
+# Of the samples of R, 0.032 s apart for a frigate, which sends out waves of 2.5 s or more: what one step of
+# the pencil spans, and the stride of its rows and columns. With larger matrices the linear algebra would
 # take several threads, and its bits would depend on how many.
 _STEP = 5
 _STRIDE = 17
@@ -55,7 +55,7 @@ class MemoryStates:
 class _Group(NamedTuple):
     """Motions that one another's waves load, their scales, and R over the scales (T, m, m)."""
 
-    motions: FloatArray
+    motions: IntArray
     scale: FloatArray
     kernel: FloatArray
 
@@ -100,7 +100,9 @@ def memory_states(functions: MemoryFunctions) -> MemoryStates:
 def _groups(kernel: FloatArray) -> list[_Group]:
     """Motions in and out of the centreplane apart where no kernel couples them, so that zeros stay zeros."""
     in_plane, out_of_plane = np.array([0, 2, 4]), np.array([1, 3, 5])
-    coupled = kernel[:, in_plane[:, None], out_of_plane].any() or kernel[:, out_of_plane[:, None], in_plane].any()
+    coupled = (
+        kernel[:, in_plane[:, None], out_of_plane].any() or kernel[:, out_of_plane[:, None], in_plane].any()
+    )
     motions = [np.arange(6)] if coupled else [in_plane, out_of_plane]
     peak = np.abs(np.einsum("tii->ti", kernel)).max(axis=0)
     scale = np.sqrt(np.maximum(peak, _SMALLEST_PEAK * peak.max()))
@@ -142,7 +144,7 @@ def _hankel(kernel: FloatArray, shift: int) -> FloatArray:
 
 
 def _modes(step: FloatArray, first: FloatArray, interval: float) -> tuple[FloatArray, FloatArray]:
-    """Decaying poles [1/s] with the rows by which a velocity enters them; of a pair of poles the upper one."""
+    """Decaying poles [1/s], of a pair the upper one, and the rows by which a velocity enters them."""
     multiplier, vectors = np.linalg.eig(step)
     rows = np.linalg.solve(vectors, first.astype(complex))
     size = np.linalg.norm(rows, axis=1)
@@ -182,13 +184,14 @@ def _constrained_least_squares(
     design: FloatArray, values: FloatArray, conditions: FloatArray, wanted: FloatArray
 ) -> FloatArray:
     """x (n, k) of least |design x − values|² among those with conditionsᵀ x = wanted."""
-    base, triangle = np.linalg.qr(conditions, mode="complete")
     count = conditions.shape[1]
+    base, triangle = qr(conditions)
     fixed = base[:, :count] @ np.linalg.solve(triangle[:count].T, wanted)
     free = base[:, count:]
     # Chunks of rows first, each made a triangle: the same least squares in small matrices.
     both = np.hstack([design @ free, values - design @ fixed])
     chunks = np.array_split(both, len(both) // _CHUNK + 1)
-    small = np.linalg.qr(np.vstack([np.linalg.qr(chunk, mode="r") for chunk in chunks]), mode="r")
+    triangles = np.vstack([qr(chunk, mode="economic")[1] for chunk in chunks])
+    small = qr(triangles, mode="economic")[1]
     rest = np.linalg.lstsq(small[:, : free.shape[1]], small[:, free.shape[1] :], rcond=None)[0]
     return fixed + free @ rest

@@ -51,7 +51,7 @@ class Radiation:
         self.memory_matrix = np.stack(
             [np.hstack([enter @ coupling, enter, states.transition]) for coupling in self.coupling]
         )
-        self._held = -np.linalg.solve(states.transition, states.entrance)
+        self._held = np.array(np.linalg.solve(-states.transition, states.entrance), dtype=np.float64)
 
     def _load_matrix(self, coupling: FloatArray) -> FloatArray:
         """The load (6, 12 + n) by displacement, velocity and memory at one speed."""

@@ -16,11 +16,12 @@ WEIGHTS = (23.0 / 12.0, -16.0 / 12.0, 5.0 / 12.0)
 
 
 class AdamsBashforth3:
-    """One evaluation of the loads a step: displacement and velocity go on with the parabola of their last rates.
+    """One evaluation of the loads a step: displacement and velocity go on with the parabola of their last
+    rates.
 
-    η_(n+1) = η_n + h (23 η̇_n − 16 η̇_(n−1) + 5 η̇_(n−2))/12 and likewise η̇ with η̈. The memory follows exactly for
-    relative velocities ν that are a parabola through the last three, the new one among them. The first two
-    steps are Runge-Kutta's. `State.past` has rates (η̇, η̈) and ν of the last two instants.
+    η_(n+1) = η_n + h (23 η̇_n − 16 η̇_(n−1) + 5 η̇_(n−2))/12 and likewise η̇ with η̈. The memory follows
+    exactly for relative velocities ν that are a parabola through the last three, the new one among them.
+    The first two steps are Runge-Kutta's. `State.past` has rates (η̇, η̈) and ν of the last two instants.
     """
 
     def __init__(self, equations: EquationsOfMotion, time_step: float) -> None:

@@ -91,7 +91,7 @@ class Batch:
         loop = clock.process_time() - compiled
         runs = [record.of(i) for i in range(len(self.members))]
         rows = sum(run.count for run in runs)
-        before = [0.0 if resume is None else float(h.attrs["cpu_seconds"]) for h in resume or runs]
+        before = [float(history.attrs["cpu_seconds"]) for history in resume or ()] or [0.0] * len(runs)
         return tuple(
             self._history(
                 self.members[i],
@@ -171,8 +171,10 @@ class Batch:
         radiation = Radiation(self.database, [member.speed for member in members])
         require_step_for_ship(
             self.time_step,
+            self.stepper,
             ship.inertia + radiation.added_mass_infinite,
             ship.hydrostatics.stiffness + self.supplementary.stiffness_matrix,
+            radiation.states.transition,
         )
         for i, member in enumerate(members):
             encounter = member.waves.encounter_frequency(member.speed, ship.gravity)

@@ -31,7 +31,7 @@ class EquationsOfMotion:
         self.load_names = (*(load.name for load in self.loads), radiation.name)
 
     def start(self, displacement: FloatArray, velocity: FloatArray) -> FloatArray:
-        """Motions of ships held at these displacements (B, 6) until t = 0, then let go at these velocities."""
+        """Motions of ships held at displacements (B, 6) until t = 0, then let go at velocities (B, 6)."""
         return self.radiation.start(displacement, velocity)
 
     def evaluate(self, time: float, motion: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -43,8 +43,8 @@ class _Waves:
 class _Gains:
     """What waves do in the step that begins at t, for a ship that stays where she is then.
 
-    `table` (n + 30, 2 M) times cos φ and sin φ: their part of y*, of r* (none), of the acceleration at y*, and
-    their own acceleration at t, one step and two steps earlier.
+    `table` (n + 30, 2 M) times cos φ and sin φ: their part of y*, of r* (none), of the acceleration at y*,
+    and their own acceleration at t, one step and two steps earlier.
     """
 
     turning: FloatArray
@@ -126,13 +126,13 @@ class Exponential:
     """Exponential predict-evaluate-correct scheme of third order, one evaluation of the loads a step.
 
     With y displacement, velocity and memory, ẏ = S y + G(w(t) + r): S has the slopes of the loads at rest,
-    radiation with memory and the speed terms; w is the acceleration by the linear wave load where the ship is when
-    the step begins; r all else, which is small where the motions are. S and w are advanced exactly (w in the
-    ramp too, as three waves for each). The residual r is first extrapolated by a parabola through its last three
-    values; the loads are evaluated at the end of that step, once; then the step is taken with the
-    parabola through the last two and the new value instead: y = y* + V (r − r*). The corrected state
-    keeps the new r; its loads are those evaluated plus their slopes times y − y*. Cox and Matthews (2002) give
-    such schemes, Hochbruck and Ostermann (2010) their theory. The first steps have a constant, then a
+    radiation with memory and the speed terms; w is the acceleration by the linear wave load where the ship
+    is when the step begins; r all else, which is small where the motions are. S and w are advanced exactly
+    (w in the ramp too, as three waves for each). The residual r is first extrapolated by a parabola through
+    its last three values; the loads are evaluated at the end of that step, once; then the step is taken
+    with the parabola through the last two and the new value instead: y = y* + V (r − r*). The corrected state
+    keeps the new r; its loads are those evaluated plus their slopes times y − y*. Cox and Matthews (2002)
+    give such schemes, Hochbruck and Ostermann (2010) their theory. The first steps have a constant, then a
     line. In vanishing waves, and in the linear model, any step is exact.
 
     `State.past` has w + r of the last three instants (18,) [m/s2, rad/s2].
@@ -159,7 +159,9 @@ class Exponential:
         motion = self._equations.start(displacement, velocity)
         acceleration, loads = self._equations.evaluate(0.0, motion)
         forced = acceleration - times_each(self._slope, motion)
-        return State(0, motion, np.concatenate([forced, np.zeros((len(motion), 12))], axis=1), acceleration, loads)
+        return State(
+            0, motion, np.concatenate([forced, np.zeros((len(motion), 12))], axis=1), acceleration, loads
+        )
 
     def step(self, state: State) -> State:
         """The state one time step later."""

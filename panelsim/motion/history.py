@@ -58,7 +58,8 @@ class History:
     Root: dims `time` [s] and `dof` (surge … yaw); `displacement`, `velocity`, `acceleration` and
     every `load_<name>` (time, dof), `wave_elevation` (time) [m] at the moving origin. Groups: `mesh`
     (`vertices` (V, 3) [m] in ship axes, `panels` (N, 4), attribute `waterline` [m]), `loading`
-    (mass, centre of gravity in hull axes, …) and `seaway` (one value a wave component); `restart` in a run that can go on. Angles in rad.
+    (mass, centre of gravity in hull axes, …) and `seaway` (one value a wave component); `restart` in a run
+    that can go on. Angles in rad.
     """
 
     tree: xr.DataTree

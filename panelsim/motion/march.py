@@ -1,6 +1,5 @@
 """The time loop: from the state at rest to the end of the run, or to whatever ends it before."""
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,7 +8,7 @@ import numpy as np
 
 from panelsim.conventions import Dof, FloatArray
 from panelsim.errors import PanelsimError
-from panelsim.motion.equations import BoolArray, finite_rows
+from panelsim.motion.equations import finite_rows
 from panelsim.motion.requirements import about_member
 from panelsim.motion.stepper import State, Stepper
 

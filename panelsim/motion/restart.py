@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
-from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.motion.history import History
 from panelsim.motion.march import Record
@@ -19,7 +19,7 @@ RESTART_FORMAT = 1
 GOES_ON = ("finished", "interrupted")  # outcomes
 
 
-def digest(*arrays: FloatArray) -> str:
+def digest(*arrays: NDArray[Any]) -> str:
     """Short name of the bits of arrays: other bits, another name."""
     found = hashlib.sha256()
     for array in arrays:
@@ -29,7 +29,7 @@ def digest(*arrays: FloatArray) -> str:
 
 
 def restart_group(state: State, member: int, identity: dict[str, Any]) -> xr.Dataset:
-    """What the history of a member keeps beside its rows: the rest of the last state, and of which run it is."""
+    """What the history of a member keeps beside its rows: the rest of the last state, and what run it is."""
     return xr.Dataset(
         {
             "motion": ("motion_state", state.motion[member].copy(), {"units": "SI"}),
@@ -57,7 +57,9 @@ def resumed(histories: Sequence[History], identities: Sequence[dict[str, Any]], 
                 )
     signals = [[h.displacement, h.velocity, h.acceleration] for h in histories]
     loads = [np.stack([h.loads[name] for name in record.load_names], axis=1) for h in histories]
-    record.fill([np.stack(columns, axis=1) for columns in zip(*signals, strict=True)], np.stack(loads, axis=1))
+    record.fill(
+        [np.stack(columns, axis=1) for columns in zip(*signals, strict=True)], np.stack(loads, axis=1)
+    )
     groups = [history.tree.children["restart"].dataset for history in histories]
     return State(
         step=len(histories[0].time) - 1,

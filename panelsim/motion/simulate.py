@@ -58,8 +58,8 @@ def simulate(
     `time_step` [s]; `model` "nonlinear" integrates the pressure over the instantaneous wetted
     surface, "linear" takes restoring and Froude-Krylov load about rest; radiation and diffraction are
     linear in both. `pressure_method` and `pressure_rule` are `method` and `rule` of `pressure_force`: how the
-    waves are summed over the wetted surface, and where on a panel. `stepper` is "exponential" (one evaluation of
-    the loads a step), "rk4" (four, the reference) or "ab3" (one). The ship is held at
+    waves are summed over the wetted surface, and where on a panel. `stepper` is "exponential" (one
+    evaluation of the loads a step), "rk4" (four, the reference) or "ab3" (one). The ship is held at
     `initial_displacement` (6,) [m, rad] until t = 0.
 
     The run ends early where |roll| exceeds `capsize_angle` [rad] (0 = never), where the motion

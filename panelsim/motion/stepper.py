@@ -11,8 +11,9 @@ from panelsim.motion.equations import BoolArray, held
 class State:
     """A batch of runs after `step` steps, all that the next one depends on.
 
-    `motion` (B, 12 + n): displacement [m, rad], velocity and memory of the radiated waves. `past` (B, m): what
-    the scheme keeps of earlier steps. `acceleration` (B, 6) and every load `loads` (B, L, 6) at this instant.
+    `motion` (B, 12 + n): displacement [m, rad], velocity and memory of the radiated waves. `past` (B, m):
+    what the scheme keeps of earlier steps. `acceleration` (B, 6) and every load `loads` (B, L, 6) at this
+    instant.
     """
 
     step: int
