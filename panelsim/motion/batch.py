@@ -201,6 +201,7 @@ class Batch:
             self.supplementary,
             speed=member.speed,
             time_step=self.time_step,
+            stepper=self.stepper,
             length=self.ramp + self.duration,
             model=self.model,
             seeded=member.seaway_kind in ("random", "dataset"),
