@@ -403,7 +403,8 @@ def test_a_run_covers_its_duration_and_says_where_its_step_is_coarse(run_halifax
     for stepper, time_step, told in (("rk4", 0.5, "6.3"), ("exponential", 0.8, "3.1"), ("ab3", 0.4, "13")):
         notes = run_halifax(sea, time_step=time_step, stepper=stepper, **coarse).notes
         assert any(f"fewer than {told} time steps a period" in note for note in notes)
-    assert not run_halifax(sea, time_step=0.5, **coarse).notes
+    notes = run_halifax(sea, time_step=0.5, **coarse).notes
+    assert not any("time steps a period" in note for note in notes)
 
 
 def test_a_ship_under_way_without_a_yaw_spring_is_warned_of_and_broaches(run_halifax: Run) -> None:

@@ -105,7 +105,9 @@ def _facts(history: History) -> dict[str, str]:
         "speed": f"{attrs['speed']:.3f} m/s ({attrs['speed'] / KNOT:.2f} knots)",
         "model": str(attrs["model"]),
         "simulated": f"{attrs['simulated_seconds']:g} s, of it {attrs['ramp']:g} s of ramp",
-        "time step": f"{attrs['time_step']:g} s, {attrs.get('stepper', 'rk4')}",
+        "time step": f"{attrs['time_step']:g} s",
+        # Histories of panelsim 0.1 were all made with it.
+        "stepper": str(attrs.get("stepper", "rk4")),
         "seed": str(attrs.get("seed", "none")),
         "panelsim": str(attrs["panelsim_version"]),
     }
