@@ -94,6 +94,7 @@ def run_loop(case: ps.Case, count: int, duration: float) -> Statistics:
         time_step=run.time_step,
         database=case.database(),
         model=run.model,
+        stepper=run.stepper,
         ramp=run.ramp,
         supplementary=case.supplementary,
         seed=case.file.seaway.seed,

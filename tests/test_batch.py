@@ -1,8 +1,7 @@
 """Batches: each run of a batch is, bit for bit, the run by itself, whatever the others are and do."""
 
 from collections.abc import Callable
-from types import SimpleNamespace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -16,8 +15,10 @@ from panelsim.loads.radiation import Radiation
 from panelsim.loads.restoring import Restoring
 from panelsim.loads.supplementary import Supplementary
 from panelsim.loads.weight import Weight
+from panelsim.motion.equations import EquationsOfMotion
 from panelsim.motion.history import History
-from panelsim.motion.march import Limits, march
+from panelsim.motion.march import Limits, Record, march, require_finite_start
+from panelsim.motion.runge_kutta import RungeKutta4
 from panelsim.motion.simulate import simulate, simulate_batch
 from panelsim.seaway.components import NO_WAVES, WaveComponents
 from panelsim.seaway.direction.spreading import CosineSquared
@@ -213,67 +214,102 @@ def test_the_seconds_spent_are_shared_by_steps(run_members: Callable[..., tuple[
 
 
 class Springs:
-    """Equations of motion η̈ = −c η, one stiffness c for each member, told the instants they are asked at."""
+    """Equations of motion η̈ = −c η, one stiffness c for each member, told the motions they are asked for."""
 
     load_names = ("spring",)
 
     def __init__(self, stiffness: list[float]) -> None:
         self.stiffness = np.array(stiffness)[:, None]
-        self.radiation = SimpleNamespace(
-            start=lambda displacement, velocity: None,
-            remember=lambda memory, displacement, velocity: None,
-            past=lambda memory, fraction: None,
-        )
-        self.instants: list[Instant] = []
+        self.asked: list[np.ndarray] = []
 
-    def evaluate(self, instant: Instant, past: None) -> tuple[np.ndarray, np.ndarray]:
-        self.instants.append(instant)
-        acceleration = -self.stiffness * instant.displacement
+    def start(self, displacement: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+        return np.concatenate([displacement, velocity], axis=1)
+
+    def evaluate(self, time: float, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        self.asked.append(motion)
+        acceleration = -self.stiffness * motion[:, :6]
         return acceleration, acceleration[:, None].copy()
 
+    def rate(self, motion: np.ndarray, acceleration: np.ndarray) -> np.ndarray:
+        return np.concatenate([motion[:, 6:], acceleration], axis=1)
 
-def test_a_motion_that_overflows_within_a_step_never_reaches_the_loads() -> None:
-    """Its member is held at rest from there on, with the rows that it had; the others oscillate on."""
+
+def march_springs(springs: Springs, displacement: np.ndarray, *, steps: int) -> Record:
+    """The springs let go, by Runge-Kutta steps of 0.1 s."""
+    stepper = RungeKutta4(springs, 0.1)
+    state = stepper.start(displacement, 0.0 * displacement)
+    require_finite_start(state)
+    record = Record(steps + 1, len(displacement), springs.load_names)
+    record.add(state)
+    limits = Limits(0.0, heave=5.0, drift=1e9)
+    march(stepper, state, record, steps=steps, time_step=0.1, limits=limits)
+    return record
+
+
+def test_a_member_that_overflows_or_runs_away_leaves_the_others_alone() -> None:
+    """It is held at rest from there on, with the rows that it had; the others oscillate on."""
     stiffness = [1.0, 1e200, 4.0, -1e3]  # the second overflows in its first step, the last runs away
     start = np.full((4, 6), 0.1)
-    limits = Limits(0.0, heave=5.0, drift=1e9)
-    given: dict[str, Any] = {"steps": 40, "time_step": 0.1, "ramp": 0.0, "limits": limits}
     springs = Springs(stiffness)
-    record = march(springs, start, 0.0 * start, **given)
-    for instant in springs.instants:
-        assert np.isfinite(instant.displacement).all()
-        assert np.isfinite(instant.velocity).all()
-        assert (instant.displacement[[0, 2]] != 0.0).all()
+    record = march_springs(springs, start, steps=40)
+    for motion in springs.asked:
+        assert (motion[[0, 2], :6] != 0.0).all()
     runs = [record.of(member) for member in range(4)]
     assert [run.outcome for run in runs] == ["finished", "diverged", "finished", "diverged"]
     assert [run.count for run in runs][:3] == [41, 1, 41]
     assert 1 < runs[3].count < 10
     assert "no longer finite at t = 0.1 s" in runs[1].detail
     assert "limit" in runs[3].detail
-    last = springs.instants[-1]
-    assert (last.displacement[[1, 3]] == 0.0).all()
+    assert (springs.asked[-4][[1, 3]] == 0.0).all()
     for member in range(4):
-        alone = march(Springs(stiffness[member : member + 1]), start[:1], 0.0 * start[:1], **given).of(0)
+        alone = march_springs(Springs(stiffness[member : member + 1]), start[:1], steps=40).of(0)
         np.testing.assert_array_equal(runs[member].displacement, alone.displacement)
         np.testing.assert_array_equal(runs[member].loads["spring"], alone.loads["spring"])
         assert runs[member].detail == alone.detail
 
 
+def test_a_motion_that_overflows_within_a_step_never_reaches_the_loads(
+    halifax: Ship, halifax_database: HydroDatabase
+) -> None:
+    """The loads take numbers only: what is none is taken at rest, and its accelerations are those of rest."""
+
+    class Listener:
+        name = "listener"
+        asked: ClassVar[list[Instant]] = []
+
+        def evaluate(self, instant: Instant) -> np.ndarray:
+            self.asked.append(instant)
+            return np.ones((3, 6))
+
+    equations = EquationsOfMotion(
+        halifax.inertia, [Listener()], Radiation(halifax_database, [0.0, 5.0, 9.0]), ramp=4.0
+    )
+    motion = equations.start(*np.random.default_rng(1).normal(size=(2, 3, 6)))
+    expected, _ = equations.evaluate(1.0, motion)
+    broken = motion.copy()
+    broken[1, 3] = np.inf
+    broken[2, 40] = np.nan
+    found, _ = equations.evaluate(1.0, broken)
+    np.testing.assert_array_equal(found[0], expected[0])
+    last = Listener.asked[-1]
+    assert last.wave_factor == pytest.approx(0.5 * (1 - np.cos(np.pi / 4)))
+    assert (last.displacement[1:] == 0.0).all() and (last.velocity[1:] == 0.0).all()
+    assert np.isfinite(found).all()
+
+
 def test_a_run_ends_where_its_loads_are_no_numbers() -> None:
     """At the start that is an error, which names the member; later the row is left out."""
-    limits = Limits(0.0, heave=5.0, drift=1e9)
-    given: dict[str, Any] = {"steps": 5, "time_step": 0.1, "ramp": 0.0, "limits": limits}
     start = np.full((2, 6), 0.1)
     with pytest.raises(PanelsimError, match="Member 2 of 2: The loads on the ship at the start"):
-        march(Springs([1.0, np.inf]), start, start, **given)
+        march_springs(Springs([1.0, np.inf]), start, steps=5)
 
     class Breaking(Springs):
-        def evaluate(self, instant: Instant, past: None) -> tuple[np.ndarray, np.ndarray]:
-            acceleration, loads = super().evaluate(instant, past)
-            loads[1, :, 0] = np.nan if instant.time > 0.25 else 0.0
+        def evaluate(self, time: float, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            acceleration, loads = super().evaluate(time, motion)
+            loads[1, :, 0] = np.nan if time > 0.25 else 0.0
             return acceleration, loads
 
-    record = march(Breaking([1.0, 1.0]), start, start, **given)
+    record = march_springs(Breaking([1.0, 1.0]), start, steps=5)
     assert [record.of(member).count for member in (0, 1)] == [6, 3]  # rows at 0, 0.1, 0.2 s
     assert record.of(1).outcome == "diverged"
 
@@ -314,19 +350,20 @@ def test_seas_of_unequal_length_each_load_their_own_ship() -> None:
 def test_each_ship_has_the_radiation_of_its_own_speed(halifax_database: HydroDatabase) -> None:
     """The same steady sway, held, at three speeds: yaw moments −U times the momentum, nothing else."""
     speeds = [0.0, 4.0, 9.0]
-    radiation = Radiation(halifax_database, speeds, 0.2)
-    displacement, velocity = np.zeros((3, 6)), np.zeros((3, 6))
+    radiation = Radiation(halifax_database, speeds)
+    velocity = np.zeros((3, 6))
     velocity[:, Dof.SWAY] = 1.5
-    memory = radiation.start(displacement, velocity)
-    for _ in range(200):
-        memory = radiation.remember(memory, displacement, velocity)
-    load = radiation.evaluate(radiation.past(memory, 0.0), displacement, velocity)
+    motion = radiation.start(np.zeros((3, 6)), velocity)
+    states = radiation.states
+    motion[:, 12:] = -np.linalg.solve(states.transition, states.entrance @ velocity[0])
+    load = radiation.evaluate(motion)
     expected = -1.5 * np.array(speeds) * halifax_database.added_mass_zero[Dof.SWAY, Dof.SWAY]
     # The kernel gives A(0) to rounding.
     np.testing.assert_allclose(load[:, Dof.YAW], expected, atol=1e-9 * np.abs(expected).max())
-    at_yaw = displacement + 0.1 * np.eye(6)[Dof.YAW]
-    relative = radiation.start(at_yaw, np.zeros((3, 6)))[:, 0, Dof.SWAY]
-    np.testing.assert_allclose(relative, -0.1 * np.array(speeds), rtol=1e-15)
+    yawed = radiation.start(np.zeros((3, 6)) + 0.1 * np.eye(6)[Dof.YAW], np.zeros((3, 6)))
+    held = np.array(speeds)[:, None] * yawed[[1], 12:] / speeds[1]
+    np.testing.assert_allclose(yawed[:, 12:], held, atol=1e-12 * np.abs(held).max())
+    assert (yawed[1, 12:] @ states.momentum[Dof.SWAY]) * velocity[0, Dof.SWAY] < 0.0
 
 
 def test_loads_of_many_ships_are_those_of_each() -> None:

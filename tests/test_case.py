@@ -123,6 +123,7 @@ def test_a_misspelt_key_is_not_called_missing_as_well(tmp_path: Path) -> None:
         ("run.pressure_rule=vertices", ["run.pressure_rule is not known", "'vertex+centre'"]),
         ("seaway.kind=randm", ["seaway.kind is not known", "'random', 'regular', 'calm'"]),
         ("supplementary.damping.roll=nan", ["not a finite number"]),
+        ("run.stepper=euler", ["run.stepper is not known", "'exponential', 'rk4' or 'ab3'"]),
     ],
 )
 def test_a_wrong_type_is_named_with_what_was_got(tmp_path: Path, override: str, words: list[str]) -> None:

@@ -64,6 +64,7 @@ class RunSection(Section):
     speed_knots: Annotated[float, Field(ge=0, le=60)]
     ship_heading_deg: Degrees | None = None
     model: Literal["nonlinear", "linear"] = "nonlinear"
+    stepper: Literal["exponential", "rk4", "ab3"] = "exponential"
     time_step: Annotated[float, Field(ge=1e-4, le=5)]  # s
     duration: Annotated[float, Field(gt=0, le=1e6)]  # s, after the ramp
     ramp: Annotated[float, Field(ge=0, le=1e5)] = 60.0  # s

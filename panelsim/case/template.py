@@ -81,7 +81,8 @@ seed = 1
 [run]
 speed_knots = {speed:g}
 model = "nonlinear"             # nonlinear | linear
-time_step = {float(f"{0.2 / scale:.1g}"):g}                 # s
+stepper = "exponential"         # exponential | rk4 | ab3: see docs/time_stepping.md
+time_step = {float(f"{0.4 / scale:.1g}"):g}                 # s
 duration = 600                  # s, after the ramp
 ramp = 60                       # s over which the waves grow
 capsize_angle_deg = 90          # end the run there; 0 = never

@@ -151,7 +151,7 @@ def show_case(case: Case) -> None:
         "supplementary damping": _by_motion(case.supplementary.damping),
         "coefficients": source,
         "run": f"{run.model}, {run.speed_knots:g} knots, ramp {run.ramp:g} s and {run.duration:g} s,"
-        f" {run.steps} steps of {run.time_step:g} s",
+        f" {run.steps} {run.stepper} steps of {run.time_step:g} s",
     }
     show_rows(case.name, rows)
 

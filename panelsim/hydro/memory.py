@@ -55,7 +55,7 @@ class MemoryFunctions:
 
     @cached_property
     def spline(self) -> CubicSpline:
-        """R(t), of which K and all convolution weights are exact derivatives and integrals."""
+        """R(t), with its exact derivative and integral."""
         return _momentum_spline(self.time, self.momentum_kernel)
 
     @cached_property
@@ -102,64 +102,6 @@ def memory_functions(database: HydroDatabase) -> MemoryFunctions:
     )
     _require_faithful(memory, database.damping_roughness)
     return memory
-
-
-@dataclass(frozen=True)
-class ConvolutionWeights:
-    """Weights (S, 6, 6) on the velocities ν at `age` (S,) [s] before now, the newest first.
-
-    `momentum`: P_m = ∫ R(s) ν(t-s) ds = Σ w_m ν(t - age_m), [kg, kg m, kg m2].
-    `rate`: dP_m/dt = ∫ K(s) ν(t-s) ds, [kg/s, kg m/s, kg m2/s].
-    """
-
-    age: FloatArray
-    momentum: FloatArray
-    rate: FloatArray
-
-
-def convolution_weights(
-    memory: MemoryFunctions, time_step: float, newest_interval: float | None = None
-) -> ConvolutionWeights:
-    """Weights for velocities sampled every `time_step` [s], the newest `newest_interval` [s] after the last.
-
-    `newest_interval` is the time step unless given; half of it serves the middle of a Runge-Kutta step. The
-    sums are exact to rounding: Σ momentum = ∫R = A(0) - A∞ and Σ rate = 0, so that a steady
-    velocity leaves P_m steady. Raises PanelsimError for an interval that is not positive.
-    """
-    newest = time_step if newest_interval is None else newest_interval
-    if not (time_step > 0.0 and newest > 0.0):
-        raise PanelsimError(
-            "The intervals of a convolution must be positive",
-            got=f"time step {time_step} s, newest interval {newest} s",
-        )
-    # As many samples for every newest interval, so that one history serves all of them.
-    older = int(np.ceil(memory.memory_length / time_step))
-    age = np.concatenate([[0.0], newest + time_step * np.arange(older + 1)])
-    # Beyond the memory R is zero and its integral stays.
-    once = memory.spline.antiderivative(1)
-    twice = memory.spline.antiderivative(2)
-    inside = np.minimum(age, memory.memory_length)
-    beyond = (age - inside)[:, None, None]
-    first_integral = once(inside)
-    second_integral = twice(inside) + beyond * first_integral
-    return ConvolutionWeights(
-        age=age,
-        momentum=_hat_weights(age, first_integral, second_integral),
-        rate=_hat_weights(age, memory.spline(inside), first_integral),
-    )
-
-
-def _hat_weights(age: FloatArray, first_integral: FloatArray, second_integral: FloatArray) -> FloatArray:
-    """∫ f(s) hat_m(s) ds at every age from the first and second integrals of f, both 0 at age 0.
-
-    By parts, a hat function is a difference of slopes of the second integral.
-    """
-    slope = np.diff(second_integral, axis=0) / np.diff(age)[:, None, None]
-    weights = np.empty_like(second_integral)
-    weights[0] = slope[0] - first_integral[0]
-    weights[1:-1] = np.diff(slope, axis=0)
-    weights[-1] = first_integral[-1] - slope[-1]
-    return weights
 
 
 def _slow_bump(time: FloatArray) -> FloatArray:

@@ -56,14 +56,21 @@ class LinearWaveLoad:
         return instant.wave_factor * np.add.reduceat(waves, self._first_wave, axis=1).T
 
 
+def wave_turning(
+    components: WaveComponents, speed: float, *, gravity: float, follows_ship: bool
+) -> FloatArray:
+    """What time, surge and sway add to the phase of each wave (3, M) [rad/s, rad/m]."""
+    k = components.wavenumber(gravity) * follows_ship
+    beta = components.wave_heading
+    encounter = components.encounter_frequency(speed, gravity)
+    return np.array([encounter, -k * np.cos(beta), k * np.sin(beta)])
+
+
 def _wave_columns(
     transfer: ComplexArray, components: WaveComponents, speed: float, *, gravity: float, follows_ship: bool
 ) -> tuple[FloatArray, ComplexArray]:
     """What time, surge and sway add to the phase of each wave (3, M), and the load amplitudes (6, M)."""
     if not components.count:  # calm water has one wave without a load, since a sum must have a term
         return np.zeros((3, 1)), np.zeros((6, 1), dtype=complex)
-    k = components.wavenumber(gravity) * follows_ship
-    beta = components.wave_heading
-    encounter = components.encounter_frequency(speed, gravity)
-    turning = np.array([encounter, -k * np.cos(beta), k * np.sin(beta)])
+    turning = wave_turning(components, speed, gravity=gravity, follows_ship=follows_ship)
     return turning, (transfer * (components.amplitude * np.exp(1j * components.phase))[:, None]).T

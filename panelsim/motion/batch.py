@@ -4,21 +4,25 @@ import math
 import time as clock
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from panelsim.conventions import FloatArray
 from panelsim.hydro.database import HydroDatabase
-from panelsim.loads.load import Instant, Load
+from panelsim.loads.load import Load
 from panelsim.loads.radiation import Radiation
 from panelsim.loads.supplementary import Supplementary
 from panelsim.loads.wetted_surface import WettedSurface
-from panelsim.motion.equations import EquationsOfMotion
+from panelsim.motion.equations import EquationsOfMotion, ramp_factor
 from panelsim.motion.history import History
-from panelsim.motion.march import Limits, MemberRecord, Progress, march, ramp_factor
+from panelsim.motion.march import Limits, MemberRecord, Progress, Record, march, require_finite_start
 from panelsim.motion.notes import run_notes
 from panelsim.motion.requirements import about_member, require_step_for_ship, require_step_for_waves
-from panelsim.motion.run_loads import run_loads
+from panelsim.motion.restart import GOES_ON, digest, restart_group, resumed
+from panelsim.motion.run_loads import RunLoads, run_loads
+from panelsim.motion.steppers import make_stepper
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.translating import TranslatingSeaway
 from panelsim.ship.ship import Ship
@@ -46,6 +50,7 @@ class Batch:
     time_step: float
     ramp: float
     model: str
+    stepper: str
     stretching: str
     pressure_method: str
     pressure_rule: str
@@ -54,37 +59,99 @@ class Batch:
     notes: Sequence[str]
 
     def run(
-        self, displacement: FloatArray, velocity: FloatArray, progress: Progress | None
+        self,
+        displacement: FloatArray,
+        velocity: FloatArray,
+        progress: Progress | None,
+        resume: Sequence[History] | None = None,
     ) -> tuple[History, ...]:
-        """Step all members from displacement and velocity (B, 6) to their ends."""
+        """Step all members from displacement and velocity (B, 6), or from where they were, to their ends."""
         begin = clock.process_time()
-        loads = self._loads()
-        equations = self._equations(loads)
+        found = self._loads()
+        equations = self._equations(found.loads)
+        stepper = make_stepper(self.stepper, equations, found.known, self.time_step)
+        wetted = [load for load in found.loads if isinstance(load, WettedSurface)]
+        methods = wetted[0].methods if wetted else ("none",) * len(self.members)
+        identities = self._identities(equations, methods, displacement, velocity)
         # The first evaluation compiles the kernel; its time is no part of the time loop.
-        equations.evaluate_loads(Instant(0.0, 0.0, displacement, velocity))
+        state = stepper.start(displacement, velocity)
+        require_finite_start(state)
+        # Whole steps that cover all of it; rounding of the quotient is no step.
+        steps = math.ceil((self.ramp + self.duration) / self.time_step - 1e-9)
+        record = Record(steps + 1, len(self.members), equations.load_names)
+        if resume is None:
+            record.add(state)
+        else:
+            state = resumed(resume, identities, record)
         compiled = clock.process_time()
-        record = march(
-            equations,
-            displacement,
-            velocity,
-            # Whole steps that cover all of it; rounding of the quotient is no step.
-            steps=math.ceil((self.ramp + self.duration) / self.time_step - 1e-9),
-            time_step=self.time_step,
-            ramp=self.ramp,
-            limits=Limits(self.capsize_angle, heave=0.5 * self.ship.length, drift=100.0 * self.ship.length),
-            progress=progress,
+        limits = Limits(self.capsize_angle, heave=0.5 * self.ship.length, drift=100.0 * self.ship.length)
+        state = march(
+            stepper, state, record, steps=steps, time_step=self.time_step, limits=limits, progress=progress
         )
         loop = clock.process_time() - compiled
         runs = [record.of(i) for i in range(len(self.members))]
         rows = sum(run.count for run in runs)
-        wetted = [load for load in loads if isinstance(load, WettedSurface)]
-        methods = wetted[0].methods if wetted else ("none",) * len(runs)
+        before = [float(history.attrs["cpu_seconds"]) for history in resume or ()] or [0.0] * len(runs)
         return tuple(
-            self._history(member, run, method, loop * run.count / rows, (compiled - begin) / len(runs))
-            for member, run, method in zip(self.members, runs, methods, strict=True)
+            self._history(
+                self.members[i],
+                run,
+                methods[i],
+                restart_group(state, i, identities[i]) if run.outcome in GOES_ON else None,
+                before[i] + loop * run.count / rows,
+                (compiled - begin) / len(runs),
+            )
+            for i, run in enumerate(runs)
         )
 
-    def _loads(self) -> list[Load]:
+    def _identities(
+        self,
+        equations: EquationsOfMotion,
+        methods: Sequence[str],
+        displacement: FloatArray,
+        velocity: FloatArray,
+    ) -> list[dict[str, Any]]:
+        """What must be the same in a run that goes on, for each member, by the words for it."""
+        ship, radiation = self.ship, equations.radiation
+        shared = {
+            "ship": digest(ship.vertices, ship.mesh.panels, ship.inertia, np.array(ship.waterline)),
+            "water": [ship.water_density, ship.gravity],
+            "model": self.model,
+            "stepper": self.stepper,
+            "time step": self.time_step,
+            "ramp": self.ramp,
+            "stretching": self.stretching,
+            "pressure rule": self.pressure_rule,
+            "set of supplementary terms": digest(
+                self.supplementary.stiffness_matrix, self.supplementary.damping_matrix
+            ),
+        }
+        return [
+            shared
+            | {
+                "speed": member.speed,
+                "sea": digest(
+                    member.waves.amplitude,
+                    member.waves.frequency,
+                    member.waves.wave_heading,
+                    member.waves.phase,
+                    np.array(member.waves.second_order),
+                ),
+                "pressure method": methods[i],
+                "initial displacement": displacement[i].tolist(),
+                "initial velocity": velocity[i].tolist(),
+                # Last: it goes with the ship and the speed, whose names say more.
+                "set of coefficients": digest(
+                    self.database.added_mass,
+                    self.database.radiation_damping,
+                    radiation.load_matrix[i],
+                    radiation.memory_matrix[i],
+                ),
+            }
+            for i, member in enumerate(self.members)
+        ]
+
+    def _loads(self) -> RunLoads:
         """All loads but radiation."""
         return run_loads(
             self.ship,
@@ -101,20 +168,28 @@ class Batch:
     def _equations(self, loads: Sequence[Load]) -> EquationsOfMotion:
         """The equations of motion of all members; PanelsimError where the time step is too long."""
         ship, members = self.ship, self.members
-        radiation = Radiation(self.database, [member.speed for member in members], self.time_step)
+        radiation = Radiation(self.database, [member.speed for member in members])
         require_step_for_ship(
             self.time_step,
+            self.stepper,
             ship.inertia + radiation.added_mass_infinite,
             ship.hydrostatics.stiffness + self.supplementary.stiffness_matrix,
+            radiation.states.transition,
         )
         for i, member in enumerate(members):
             encounter = member.waves.encounter_frequency(member.speed, ship.gravity)
             with about_member(i, len(members)):
                 require_step_for_waves(self.time_step, member.waves, encounter)
-        return EquationsOfMotion(ship.inertia, loads, radiation)
+        return EquationsOfMotion(ship.inertia, loads, radiation, self.ramp)
 
     def _history(
-        self, member: Member, run: MemberRecord, method: str, cpu_seconds: float, jit_seconds: float
+        self,
+        member: Member,
+        run: MemberRecord,
+        method: str,
+        restart: xr.Dataset | None,
+        cpu_seconds: float,
+        jit_seconds: float,
     ) -> History:
         time = np.arange(run.count, dtype=np.float64) * self.time_step
         factor = np.array([ramp_factor(t, self.ramp) for t in time])
@@ -126,6 +201,7 @@ class Batch:
             self.supplementary,
             speed=member.speed,
             time_step=self.time_step,
+            stepper=self.stepper,
             length=self.ramp + self.duration,
             model=self.model,
             seeded=member.seaway_kind in ("random", "dataset"),
@@ -154,6 +230,8 @@ class Batch:
             cpu_seconds=cpu_seconds,
             jit_seconds=jit_seconds,
             notes=[*self.notes, *notes],
+            stepper=self.stepper,
+            restart=restart,
         )
 
 

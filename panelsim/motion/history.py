@@ -58,7 +58,8 @@ class History:
     Root: dims `time` [s] and `dof` (surge … yaw); `displacement`, `velocity`, `acceleration` and
     every `load_<name>` (time, dof), `wave_elevation` (time) [m] at the moving origin. Groups: `mesh`
     (`vertices` (V, 3) [m] in ship axes, `panels` (N, 4), attribute `waterline` [m]), `loading`
-    (mass, centre of gravity in hull axes, …) and `seaway` (one value a wave component). Angles in rad.
+    (mass, centre of gravity in hull axes, …) and `seaway` (one value a wave component); `restart` in a run
+    that can go on. Angles in rad.
     """
 
     tree: xr.DataTree
@@ -95,6 +96,8 @@ class History:
         cpu_seconds: float = np.nan,
         jit_seconds: float = 0.0,
         notes: Sequence[str] = (),
+        stepper: str = "none",
+        restart: xr.Dataset | None = None,
     ) -> "History":
         """Gather what a run has computed, whole or cut short.
 
@@ -103,7 +106,7 @@ class History:
         `components` as the run had them; `pressure_method`, `pressure_rule` of the nonlinear load; `speed`
         [m/s]; `ramp` and `time_step` [s]; `case` JSON text; `cpu_seconds` of the time loop alone,
         compilation apart in `jit_seconds`; `notes` are sentences
-        that a reader of the report should see.
+        that a reader of the report should see; `stepper` the scheme, `restart` what it takes to go on.
         Raises PanelsimError for an unknown outcome and for arrays that do not fit together.
         """
         if outcome not in OUTCOMES:
@@ -116,6 +119,7 @@ class History:
             "outcome": outcome,
             "outcome_detail": outcome_detail,
             "model": model,
+            "stepper": stepper,
             "pressure_method": pressure_method,
             "pressure_rule": pressure_rule,
             "speed": float(speed),
@@ -135,6 +139,8 @@ class History:
             "/loading": _loading_group(ship),
             "/seaway": _seaway_group(components, kind=seaway_kind, stretching=stretching, ramp=ramp),
         }
+        if restart is not None:
+            groups["/restart"] = restart
         return cls(xr.DataTree.from_dict(groups))
 
     @property

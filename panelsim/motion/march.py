@@ -1,19 +1,16 @@
 """The time loop: from the state at rest to the end of the run, or to whatever ends it before."""
 
-import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from panelsim.conventions import Dof, FloatArray
 from panelsim.errors import PanelsimError
-from panelsim.loads.load import Instant
-from panelsim.motion.equations import EquationsOfMotion
+from panelsim.motion.equations import finite_rows
 from panelsim.motion.requirements import about_member
-from panelsim.motion.steppers import Rates, rk4_step
+from panelsim.motion.stepper import State, Stepper
 
 # Pitch near 90° is where yaw-pitch-roll angles cease to mean anything; no ship comes back from 60°.
 PITCH_LIMIT = np.deg2rad(60.0)
@@ -25,7 +22,6 @@ FASTEST_CAPSIZE = np.deg2rad(45.0)
 STEPS_BETWEEN_PROGRESS = 25
 
 Progress = Callable[[float, float], None]
-BoolArray = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -63,34 +59,36 @@ class Limits:
         return None
 
 
-def finite_rows(*values: FloatArray) -> BoolArray | None:
-    """Which members (B,) of arrays (B, ...) have finite numbers only; None where all have."""
-    # An infinite number, or none, makes a sum of squares so; it takes half the time of looking at each.
-    if all([math.isfinite(np.vdot(value, value)) for value in values]):
-        return None
-    rows = [np.isfinite(value).all(axis=tuple(range(1, value.ndim))) for value in values]
-    return np.logical_and.reduce(rows)
-
-
 class Record:
     """Columns of a batch of runs, filled step by step; what is filled stays when a run is cut short."""
 
     def __init__(self, size: int, members: int, load_names: tuple[str, ...]) -> None:
         self.load_names = load_names
         self.count = 0
+        self.size = size
         self.running = np.ones(members, dtype=bool)
         self._ends = [(0, "", "")] * members
         self._columns = [np.empty((size, members, 6)) for _ in range(3)]
         self._loads = np.empty((size, members, len(load_names), 6))
 
-    def add(
-        self, displacement: FloatArray, velocity: FloatArray, acceleration: FloatArray, loads: FloatArray
-    ) -> None:
+    def add(self, state: State) -> None:
         """Keep one instant."""
-        for column, value in zip(self._columns, (displacement, velocity, acceleration), strict=True):
+        signals = state.displacement, state.velocity, state.acceleration
+        for column, value in zip(self._columns, signals, strict=True):
             column[self.count] = value
-        self._loads[self.count] = loads
+        self._loads[self.count] = state.loads
         self.count += 1
+
+    def fill(self, columns: Sequence[FloatArray], loads: FloatArray) -> None:
+        """Put the instants of an earlier run in front: displacement, … (T, B, 6) and loads (T, B, L, 6)."""
+        self.count = len(loads)
+        for column, values in zip(self._columns, columns, strict=True):
+            column[: self.count] = values
+        self._loads[: self.count] = loads
+
+    def drop_after(self, step: int) -> None:
+        """Forget instants after so many steps: an interrupt may fall between an instant and its state."""
+        self.count = min(self.count, step + 1)
 
     def end(self, member: int, outcome: str, detail: str = "") -> None:
         """End the run of a member that runs, with the instants kept so far; later ones are not its own."""
@@ -128,97 +126,67 @@ class MemberRecord:
         return len(self.displacement)
 
 
-def ramp_factor(time: float, ramp: float) -> float:
-    """Factor on the wave amplitudes, ½(1 − cos(π t/ramp)) until t = ramp [s], then 1."""
-    return 1.0 if time >= ramp else 0.5 * (1.0 - math.cos(math.pi * time / ramp))
-
-
 @np.errstate(over="ignore", invalid="ignore")  # a motion that overflows has diverged, and is told so
 def march(
-    equations: EquationsOfMotion,
-    displacement: FloatArray,
-    velocity: FloatArray,
+    stepper: Stepper,
+    state: State,
+    record: Record,
     *,
     steps: int,
     time_step: float,
-    ramp: float,
     limits: Limits,
     progress: Progress | None = None,
-) -> Record:
-    """Step the equations of motion of a batch of runs `steps` times and keep every instant.
+) -> State:
+    """Step a batch of runs from a state until `steps` steps are done, and keep every instant in the record.
 
-    Starts from `displacement` and `velocity` (B, 6), held there until t = 0. A member ends early where a
-    limit is exceeded or its motion is no longer finite, all of them on an interrupt. A member that has
-    ended is held at rest, whatever it costs: the others go on as if it were not there.
+    Returns the state of the last instant that the record keeps.
+
+    A member ends early where a limit is exceeded or its motion is no longer finite, all of them on an
+    interrupt. A member that has ended is held at rest, whatever it costs: the others go on as if it were
+    not there.
     """
-    radiation = equations.radiation
-    memory = radiation.start(displacement, velocity)
-    record = Record(steps + 1, len(displacement), equations.load_names)
-    start = 0.0
+    kept, begin = state, state.step * time_step
     try:
-        for step in range(steps + 1):
-            start = step * time_step
-            rates = _rates(equations, memory, start, time_step, ramp)
-            first, loads = rates(0.0, displacement, velocity)
-            _end_where_not_finite(record, start + time_step, first, loads)
-            record.add(displacement, velocity, first, loads)
-            if step == steps:
-                break
-            before = displacement
-            displacement, velocity = rk4_step(rates, first, displacement, velocity, time_step)
-            _end_where_not_finite(record, start + time_step, displacement, velocity)
-            _end_beyond_limits(record, limits, displacement, before, start + time_step)
+        for step in range(state.step, steps):
+            begin, end = step * time_step, (step + 1) * time_step
+            after = stepper.step(kept)
+            _end_where_not_finite(record, after, end)
+            _end_beyond_limits(record, limits, after.displacement, kept.displacement, end)
             if not record.running.any():
-                break
+                return kept
             if not record.running.all():
-                displacement, velocity = (_held(value, record.running) for value in (displacement, velocity))
-            memory = radiation.remember(memory, displacement, velocity)
+                after = after.holding(record.running)
             if progress is not None and step % STEPS_BETWEEN_PROGRESS == 0:
-                progress(start, steps * time_step)
+                progress(begin, steps * time_step)
+            record.add(after)
+            kept = after
         record.end_all("finished")
     except KeyboardInterrupt:
-        if not record.count:  # nothing to keep yet
-            raise
-        record.end_all("interrupted", f"stopped by the user at t = {start:.6g} s")
-    return record
+        record.drop_after(kept.step)
+        record.end_all("interrupted", f"stopped by the user at t = {begin:.6g} s")
+    return kept
 
 
-def _rates(
-    equations: EquationsOfMotion, memory: FloatArray, start: float, time_step: float, ramp: float
-) -> Rates:
-    """Accelerations (B, 6) and loads at a fraction of the step that begins at `start` [s]."""
-    past = {fraction: equations.radiation.past(memory, fraction) for fraction in (0.0, 0.5, 1.0)}
-
-    def at(fraction: float, displacement: FloatArray, velocity: FloatArray) -> tuple[FloatArray, FloatArray]:
-        finite = finite_rows(displacement, velocity)
-        if finite is not None:  # the loads take numbers only; the member ends with the step
-            displacement, velocity = _held(displacement, finite), _held(velocity, finite)
-        time = start + fraction * time_step
-        instant = Instant(time, ramp_factor(time, ramp), displacement, velocity)
-        return equations.evaluate(instant, past[fraction])
-
-    return at
-
-
-def _held(values: FloatArray, running: BoolArray) -> FloatArray:
-    """Values (B, 6) of the members that run (B,), zero for those that are held at rest."""
-    return np.where(running[:, None], values, 0.0)
-
-
-def _end_where_not_finite(record: Record, time: float, *values: FloatArray) -> None:
-    """End the runs whose values (B, ...) are no longer finite; at the start that is an error."""
-    finite = finite_rows(*values)
+def require_finite_start(state: State) -> None:
+    """Raise PanelsimError, with the number of the member, where the loads at the start are no numbers."""
+    finite = finite_rows(state.acceleration, state.loads)
     if finite is None:
         return
-    for member in np.flatnonzero(~finite):
-        if not record.count:
-            with about_member(int(member), len(finite)):
-                raise PanelsimError(
-                    "The loads on the ship at the start are no numbers",
-                    got=f"accelerations {values[0][member]}",
-                    allowed="a ship near rest",
-                )
-        record.end(int(member), "diverged", f"the motion is no longer finite at t = {time:.6g} s")
+    member = int(np.flatnonzero(~finite)[0])
+    with about_member(member, len(finite)):
+        raise PanelsimError(
+            "The loads on the ship at the start are no numbers",
+            got=f"accelerations {state.acceleration[member]}",
+            allowed="a ship near rest",
+        )
+
+
+def _end_where_not_finite(record: Record, state: State, time: float) -> None:
+    """End the runs of which a number is no longer finite."""
+    finite = finite_rows(state.motion, state.acceleration, state.loads)
+    if finite is not None:
+        for member in np.flatnonzero(~finite):
+            record.end(int(member), "diverged", f"the motion is no longer finite at t = {time:.6g} s")
 
 
 def _end_beyond_limits(

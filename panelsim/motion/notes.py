@@ -10,8 +10,9 @@ from panelsim.motion.requirements import ENERGY_THAT_COUNTS, energy_share
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.repeat import repeat_time, variance_scatter
 
-# A wave of six steps a period is followed within some per cent.
-COARSE_STEP = 1.0  # encounter frequency times time step
+# Encounter frequency times time step above which a scheme follows a wave no better than within some per cent
+# (reports/steppers.md).
+COARSE_STEP = {"exponential": 2.0, "rk4": 1.0, "ab3": 0.5}
 # Scatter of the RMS of the waves from one choice of phases to another, above which one run says little.
 MUCH_SCATTER = 0.15
 # Over ten times the length the scatter of a sea falls to a third; that of waves that beat stays.
@@ -25,11 +26,13 @@ def run_notes(
     *,
     speed: float,
     time_step: float,
+    stepper: str,
     length: float,
     model: str,
     seeded: bool = True,
 ) -> list[str]:
-    """Sentences on a run of `length` [s] at `speed` [m/s] with `time_step` [s]; none where all is well.
+    """Sentences on a run of `length` [s] at `speed` [m/s] with `time_step` [s] of a scheme; none where all
+    is well.
 
     `seeded` where the phases are a choice of chance, not those of a record.
     """
@@ -41,7 +44,7 @@ def run_notes(
         )
     if components.count:
         notes += _resolution_note(components, database, speed)
-        notes += _step_note(components, speed, time_step, database.gravity)
+        notes += _step_note(components, speed, time_step, stepper, database.gravity)
     again = repeat_time(components, speed, length, gravity=database.gravity)
     if again is not None:
         notes.append(
@@ -68,15 +71,19 @@ def _resolution_note(components: WaveComponents, database: HydroDatabase, speed:
     ]
 
 
-def _step_note(components: WaveComponents, speed: float, time_step: float, gravity: float) -> list[str]:
-    """Waves that a coarse step follows badly."""
+def _step_note(
+    components: WaveComponents, speed: float, time_step: float, stepper: str, gravity: float
+) -> list[str]:
+    """Waves that a coarse step of the scheme follows badly."""
+    coarse = COARSE_STEP[stepper]
     encounter = np.abs(components.encounter_frequency(speed, gravity))
-    share = energy_share(components, encounter * time_step > COARSE_STEP)
+    share = energy_share(components, encounter * time_step > coarse)
     if share <= ENERGY_THAT_COUNTS:
         return []
+    steps = 2 * np.pi / coarse
     return [
-        f"{100 * share:.0f} % of the wave energy meets the ship with fewer than six time steps a period:"
-        f" motions from it are off by several per cent; a step of {COARSE_STEP / encounter.max():.2g} s"
+        f"{100 * share:.0f} % of the wave energy meets the ship with fewer than {steps:.2g} time steps a"
+        f" period: motions from it are off by several per cent; a step of {coarse / encounter.max():.2g} s"
         " follows all of it."
     ]
 

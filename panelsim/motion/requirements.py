@@ -17,8 +17,13 @@ from panelsim.seaway.components import WaveComponents
 
 MODELS = ("nonlinear", "linear")
 MOST_STEPS = 2_000_000  # a run keeps some 600 bytes a step, 1000 while its history is made
-# RK4 stays stable to ω dt = 2.83, but at 2 it takes a quarter off a motion with every step.
-LONGEST_STEP = 2.0  # over the highest natural frequency of the ship
+# The longest step of each scheme over the highest natural frequency of the ship. RK4 stays stable to
+# ω dt = 2.83, but at 2 it takes a quarter off a motion with every step; AB3 is stable to 0.72. The
+# exponential scheme is stable, but what is not linear is off by a tenth or more from 1.5 on
+# (reports/steppers.md).
+LONGEST_STEP = {"exponential": 1.5, "rk4": 2.0, "ab3": 0.7}
+# RK4 advances the memory of the waves as well, and is stable to 2.78 times its fastest decay.
+LONGEST_OF_MEMORY = {"rk4": 2.5}
 # Two samples a period are the least that can show a wave at all.
 LEAST_SAMPLES = np.pi
 ENERGY_THAT_COUNTS = 0.05
@@ -48,6 +53,7 @@ def require_run(
     ramp: float,
     capsize_angle: float,
     model: str,
+    stepper: str,
     stretching: str,
     pressure_method: str,
     pressure_rule: str,
@@ -55,6 +61,7 @@ def require_run(
     """Raise PanelsimError for a value that no batch of runs can have; SI units and radians."""
     for name, word, known in (
         ("model", model, MODELS),
+        ("stepper", stepper, tuple(LONGEST_STEP)),
         ("wave stretching", stretching, STRETCHINGS),
         ("pressure method", pressure_method, METHODS),
         ("pressure rule", pressure_rule, RULES),
@@ -101,18 +108,27 @@ def _require_between(name: str, value: float, low: float, high: float, unit: str
         raise PanelsimError(f"The {name} is out of range", got=f"{value:g} {unit}", allowed=allowed)
 
 
-def require_step_for_ship(time_step: float, inertia: FloatArray, stiffness: FloatArray) -> None:
-    """Raise PanelsimError where the step [s] is too long for the ship's own motions.
+def require_step_for_ship(
+    time_step: float, stepper: str, inertia: FloatArray, stiffness: FloatArray, memory: FloatArray
+) -> None:
+    """Raise PanelsimError where the step [s] of this scheme is too long for the ship's own motions.
 
-    `inertia` M + A∞ and `stiffness` with the supplementary terms (6, 6).
+    `inertia` M + A∞ and `stiffness` with the supplementary terms (6, 6), `memory` the transition matrix of
+    the memory of the radiated waves (n, n) [1/s].
     """
     squared = np.linalg.eigvals(np.linalg.solve(inertia, stiffness)).real
     natural = float(np.sqrt(max(squared.max(), 0.0)))
-    if natural * time_step > LONGEST_STEP:
+    fastest = float(np.abs(np.linalg.eigvals(memory)).max())
+    allowed = min(
+        LONGEST_STEP[stepper] / natural if natural else np.inf,
+        LONGEST_OF_MEMORY.get(stepper, np.inf) / fastest,
+    )
+    if time_step > allowed:
+        period = 2 * np.pi / natural if natural else np.inf
         raise PanelsimError(
             "The time step is too long for the motions of the ship",
-            got=f"{time_step:g} s, with a natural period of {2 * np.pi / natural:.3g} s",
-            allowed=f"at most {LONGEST_STEP / natural:.2g} s",
+            got=f"{time_step:g} s, with a natural period of {period:.3g} s",
+            allowed=f"at most {allowed:.2g} s with the stepper {stepper}",
             remedy="shorten run.time_step; a tenth of the natural period is accurate",
         )
 

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from panelsim.conventions import FloatArray
+from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
 from panelsim.loads.arguments import require_seaway
 from panelsim.loads.supplementary import Supplementary
@@ -37,6 +38,7 @@ def simulate(
     time_step: float,
     database: HydroDatabase,
     model: str = "nonlinear",
+    stepper: str = "exponential",
     ramp: float = 60.0,
     stretching: str = "wheeler",
     pressure_method: str = "auto",
@@ -49,6 +51,7 @@ def simulate(
     case: Mapping[str, Any] | None = None,
     seed: int | None = None,
     notes: Sequence[str] = (),
+    resume: History | None = None,
 ) -> History:
     """Run the ship through the sea and keep every motion and every load.
 
@@ -56,14 +59,17 @@ def simulate(
     `time_step` [s]; `model` "nonlinear" integrates the pressure over the instantaneous wetted
     surface, "linear" takes restoring and Froude-Krylov load about rest; radiation and diffraction are
     linear in both. `pressure_method` and `pressure_rule` are `method` and `rule` of `pressure_force`: how the
-    waves are summed over the wetted surface, and where on a panel. The ship is held at
+    waves are summed over the wetted surface, and where on a panel. `stepper` is "exponential" (one
+    evaluation of the loads a step), "rk4" (four, the reference) or "ab3" (one). The ship is held at
     `initial_displacement` (6,) [m, rad] until t = 0.
 
     The run ends early where |roll| exceeds `capsize_angle` [rad] (0 = never), where the motion
     diverges, or on an interrupt; `History.outcome` says which. `progress(done, total)` is told the
-    seconds now and then. `case`, `seed` and `notes` are kept in the history.
+    seconds now and then. `case`, `seed` and `notes` are kept in the history. `resume` is the history of the
+    beginning of this very run, finished earlier or interrupted: it goes on there, and the history
+    is, bit for bit, that of the whole run.
 
-    Raises PanelsimError for bad arguments and for a database of another ship.
+    Raises PanelsimError for bad arguments, for a database of another ship and a history of another run.
     """
     (history,) = simulate_batch(
         ship,
@@ -73,6 +79,7 @@ def simulate(
         time_step=time_step,
         database=database,
         model=model,
+        stepper=stepper,
         ramp=ramp,
         stretching=stretching,
         pressure_method=pressure_method,
@@ -85,6 +92,7 @@ def simulate(
         case=case,
         seeds=[seed],
         notes=notes,
+        resume=None if resume is None else [resume],
     )
     return history
 
@@ -98,6 +106,7 @@ def simulate_batch(
     time_step: float,
     database: HydroDatabase,
     model: str = "nonlinear",
+    stepper: str = "exponential",
     ramp: float = 60.0,
     stretching: str = "wheeler",
     pressure_method: str = "auto",
@@ -110,6 +119,7 @@ def simulate_batch(
     case: Mapping[str, Any] | None = None,
     seeds: Sequence[int | None] | None = None,
     notes: Sequence[str] = (),
+    resume: Sequence[History] | None = None,
 ) -> tuple[History, ...]:
     """Run the ship through many seas at once, and keep every motion and every load of each run.
 
@@ -118,7 +128,8 @@ def simulate_batch(
     [m/s] may be one for each seaway, `initial_displacement` and `initial_velocity` may be (6,) or (B, 6), and
     `seeds` has one for each seaway. A run that ends early leaves the others as they are; an interrupt ends
     all, and all are kept. `cpu_seconds` and `jit_seconds` of a history are a share of those of the batch:
-    of the time loop by the steps of the run, of compilation and set-up an equal one.
+    of the time loop by the steps of the run, of compilation and set-up an equal one. `resume` has one history
+    for each seaway, all cut at the same time.
 
     Raises PanelsimError for bad arguments, with the number of the member, and for a database of another ship.
     """
@@ -132,6 +143,7 @@ def simulate_batch(
         ramp=ramp,
         capsize_angle=capsize_angle,
         model=model,
+        stepper=stepper,
         stretching=stretching,
         pressure_method=pressure_method,
         pressure_rule=pressure_rule,
@@ -150,6 +162,7 @@ def simulate_batch(
         time_step=time_step,
         ramp=ramp,
         model=model,
+        stepper=stepper,
         stretching=stretching,
         pressure_method=pressure_method,
         pressure_rule=pressure_rule,
@@ -157,7 +170,21 @@ def simulate_batch(
         case=kept_case,
         notes=notes,
     )
-    return batch.run(*start, progress)
+    return batch.run(*start, progress, _histories(resume, len(members)))
+
+
+def _histories(resume: object, members: int) -> list[History] | None:
+    """Checked histories to go on from, one for each member."""
+    if resume is None:
+        return None
+    histories = sequence_of("histories to go on from", resume, members)
+    for i, history in enumerate(histories):
+        with about_member(i, members):
+            if not isinstance(history, History):
+                raise PanelsimError(
+                    "The run to go on from is no history", got=repr(history)[:60], allowed="a History"
+                )
+    return histories
 
 
 def _members(seaways: object, speed: object, seeds: object) -> list[Member]:

@@ -107,6 +107,8 @@ def _facts(history: History) -> dict[str, str]:
         "pressure on the hull": _pressure(history),
         "simulated": f"{attrs['simulated_seconds']:g} s, of it {attrs['ramp']:g} s of ramp",
         "time step": f"{attrs['time_step']:g} s",
+        # Histories of panelsim 0.1 were all made with it.
+        "stepper": str(attrs.get("stepper", "rk4")),
         "seed": str(attrs.get("seed", "none")),
         "panelsim": str(attrs["panelsim_version"]),
     }

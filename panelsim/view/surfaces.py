@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from panelsim.conventions import ComplexArray, FloatArray, IntArray, rotation_to_earth
+from panelsim.motion.equations import ramp_factor
 from panelsim.motion.history import History
-from panelsim.motion.march import ramp_factor
 from panelsim.seaway.translating import TranslatingSeaway
 
 ColorArray = NDArray[np.uint32]  # 0xRRGGBBAA
