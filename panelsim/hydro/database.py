@@ -33,10 +33,9 @@ _WET_PANELS_OF_AN_OWN_MESH = 1200
 _REFERENCE_LENGTH = 120.0
 _REFERENCE_FREQUENCIES = np.array([*np.arange(4) / 20.0, *np.arange(2, 10) / 10.0, *np.arange(20, 53) / 20.0])
 
-_VARIABLES = {
-    *("added_mass", "radiation_damping", "added_mass_infinite"),
-    *("potential_real", "potential_imag", "potential_infinite", "panel_corners"),
-}
+_COEFFICIENTS = {"added_mass", "radiation_damping", "added_mass_infinite"}
+_POTENTIALS = {"potential_real", "potential_imag", "potential_infinite", "panel_corners"}
+_TABLES = {"diffraction_real", "diffraction_imag"}
 _PREFIX = "ship_"
 # How far a ship may differ from the one the database was made for. The longitudinal centre of gravity of a
 # ship that floats at a stated draft moves with its panelling, by centimetres on 100 m.
@@ -51,6 +50,9 @@ class HydroDatabase:
 
     A thin class over an xarray `dataset` laid out as `panelsim.hydro.bem.solve_radiation` says, with
     what it was computed for as attributes. One database serves every speed, heading and panel size.
+
+    Databases of other programs have no potentials, but diffraction loads at zero speed by wave frequency and
+    heading (`has_potentials` is False): `panelsim.hydro.tabulated_diffraction` says what they are good for.
     """
 
     dataset: xr.Dataset
@@ -79,12 +81,24 @@ class HydroDatabase:
             frequencies=frequency_grid(ship.length, resolved),
             progress=progress,
         )
-        identity = {_PREFIX + name: value for name, value in solved.identity().items()}
+        return cls.of_ship(solved, dataset)
+
+    @classmethod
+    def of_ship(cls, ship: Ship, dataset: xr.Dataset) -> "HydroDatabase":
+        """A database of coefficients that were found for this ship: `dataset` is told what it is."""
+        identity = {_PREFIX + name: value for name, value in ship.identity().items()}
+        conventions = dict(_CONVENTIONS)
+        if "diffraction_real" in dataset:
+            conventions["potential"] = "none"
+            conventions["diffraction"] = (
+                "load of the scattered wave at zero speed per metre of amplitude, crest at the centre of"
+                " gravity; wave heading in rad, 0 following, pi/2 from port, pi head"
+            )
         dataset.attrs |= {
             "format": FORMAT,
             "name": ship.name,
             "length": ship.length,
-            **_CONVENTIONS,
+            **conventions,
             **identity,
         }
         return cls(dataset)
@@ -108,7 +122,9 @@ class HydroDatabase:
                 got=f"{path} ({error})",
                 remedy="compute it again with `panelsim hydro NAME -o FILE.nc`",
             ) from error
-        if dataset.attrs.get("format") != FORMAT or not set(dataset.data_vars) >= _VARIABLES:
+        held = set(dataset.data_vars)
+        whole = held >= _COEFFICIENTS and (held >= _POTENTIALS or held >= _TABLES)
+        if dataset.attrs.get("format") != FORMAT or not whole:
             raise PanelsimError(
                 "This file is no hydrodynamic database of panelsim",
                 got=f"{path}, format {dataset.attrs.get('format')!r}",
@@ -148,9 +164,53 @@ class HydroDatabase:
         """A(∞) (6, 6) of the boundary elements."""
         return self.dataset["added_mass_infinite"].values
 
+    @property
+    def has_potentials(self) -> bool:
+        """True with radiation potentials, from which diffraction at any speed and heading follows."""
+        return set(self.dataset.data_vars) >= _POTENTIALS
+
+    @cached_property
+    def wave_frequencies(self) -> FloatArray:
+        """Wave frequencies (W,) [rad/s] of the diffraction tables, ascending."""
+        return np.asarray(self._tables["wave_frequency"].values, dtype=np.float64)
+
+    @cached_property
+    def wave_headings(self) -> FloatArray:
+        """Headings (H,) [rad] of the diffraction tables, ascending in (-π, π], 0 following, π head."""
+        return np.asarray(self._tables["wave_heading"].values, dtype=np.float64)
+
+    @cached_property
+    def diffraction_table(self) -> ComplexArray:
+        """Diffraction loads at zero speed (W, H, 6) per unit amplitude [N/m, N], as `diffraction_load`."""
+        tables = self._tables
+        return tables["diffraction_real"].values + 1j * tables["diffraction_imag"].values
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Sentences on where the coefficients come from and what was taken for granted; often none."""
+        return tuple(str(self.dataset.attrs.get("notes", "")).splitlines())
+
+    @property
+    def _tables(self) -> xr.Dataset:
+        if not set(self.dataset.data_vars) >= _TABLES:
+            raise PanelsimError(
+                "This database holds no diffraction tables",
+                remedy="its potentials give diffraction at any frequency and heading: diffraction_load",
+            )
+        return self.dataset
+
     @cached_property
     def potential(self) -> ComplexArray:
-        """Radiation potentials φ_j(ω) (F, 6, panels), ∂φ_j/∂n = n_j."""
+        """Radiation potentials φ_j(ω) (F, 6, panels), ∂φ_j/∂n = n_j.
+
+        Raises PanelsimError where the database came from another program and holds none.
+        """
+        if not self.has_potentials:
+            raise PanelsimError(
+                "This database holds no radiation potentials, only diffraction tables",
+                got=self.dataset.attrs.get("solver"),
+                remedy="compute one with `panelsim hydro NAME -o FILE.nc`",
+            )
         real = self.dataset["potential_real"].values.astype(np.float64)
         return real + 1j * self.dataset["potential_imag"].values
 

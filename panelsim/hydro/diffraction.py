@@ -3,7 +3,7 @@
 The scattered wave φ_D cancels the flow of the incident wave φ_I through the hull. Its momentum needs no
 solution of its own: P_d,j = -ρ ∫ φ_D n_j dS = ρ ∫ φ_j(ω_e) ∂φ_I/∂n dS, with the radiation potentials φ_j
 at the frequency of encounter and φ_I at the wave's own wavenumber. The load is F = (-iω_e + Lᵀ) P_d with
-L35 = +U, L26 = -U, and nothing is divided by ω_e.
+L35 = +U, L26 = -U, and nothing is divided by ω_e. A database without potentials gives P_d from its tables.
 """
 
 import numpy as np
@@ -13,6 +13,7 @@ from scipy.interpolate import CubicSpline
 from panelsim.conventions import ComplexArray, Dof, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.tabulated_diffraction import tabulated_momentum
 from panelsim.seaway.dispersion import encounter_frequency, wavenumber
 
 _GAUSS = np.array([-1.0, 1.0]) / np.sqrt(3.0)
@@ -27,7 +28,8 @@ def diffraction_load(
 
     `frequency` ω (M,) [rad/s] more than 0, `wave_heading` β (M,) [rad], 0 following, π head; `speed` [m/s].
     Complex amplitude with exp(+iω_e t), ω_e signed, on the ship's mean position in ship axes, the phase
-    that of a crest at the centre of gravity at t = 0. Raises PanelsimError for a frequency not above 0.
+    that of a crest at the centre of gravity at t = 0. Raises PanelsimError for a frequency not above 0 and,
+    without potentials, for waves that the tables of the database do not cover.
     """
     omega, heading = _components(frequency, wave_heading)
     momentum = diffraction_momentum(database, omega, heading, speed)
@@ -44,6 +46,8 @@ def diffraction_momentum(
     """Momentum P_d (M, 6) [kg m/s, kg m2/s] of the scattered wave, arguments as in `diffraction_load`."""
     omega, heading = _components(frequency, wave_heading)
     encounter = encounter_frequency(omega, heading, speed, database.gravity)
+    if not database.has_potentials:
+        return tabulated_momentum(database, omega, heading, encounter)
     even, odd = _normal_flow(database, omega, heading)
     momentum = np.empty((len(omega), 6), dtype=np.complex128)
     potential = radiation_potential(database, encounter)
