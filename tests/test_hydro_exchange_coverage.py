@@ -19,8 +19,9 @@ from panelsim.hydro.exchange.foreign import ForeignCoefficients
 from panelsim.hydro.exchange.frame import Frame
 from panelsim.hydro.exchange.incident import froude_krylov
 from panelsim.hydro.exchange.wamit import frequency_of
+from panelsim.hydro.interpolation import complex_inertia
 from panelsim.hydro.store import STORED_NAME
-from panelsim.hydro.tabulated_diffraction import complex_inertia, tabulated_momentum
+from panelsim.hydro.tabulated_diffraction import tabulated_momentum
 from panelsim.loads.froude_krylov import froude_krylov_transfer
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.dispersion import encounter_frequency

@@ -14,6 +14,8 @@ from panelsim.files import write_whole
 from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.hull.refine import subdivided
 from panelsim.hydro.bem import Progress, highest_resolved_frequency, solve_radiation
+from panelsim.hydro.strip.database import highest_strip_frequency, solve_strips
+from panelsim.hydro.strip.mesh_sections import sections_of_mesh
 from panelsim.ship.bundled import default_panel_area
 from panelsim.ship.ship import Ship
 
@@ -32,6 +34,12 @@ _WET_PANELS_OF_AN_OWN_MESH = 1200
 # quickly, hence the fine end.
 _REFERENCE_LENGTH = 120.0
 _REFERENCE_FREQUENCIES = np.array([*np.arange(4) / 20.0, *np.arange(2, 10) / 10.0, *np.arange(20, 53) / 20.0])
+
+# Sections resolve shorter waves than panels do; head seas at speed meet a ship that fast.
+_REFERENCE_FREQUENCIES_BEYOND = np.arange(14, 26) / 5.0
+_STRIPS = 21
+
+METHODS = ("bem", "strip")
 
 _COEFFICIENTS = {"added_mass", "radiation_damping", "added_mass_infinite"}
 _POTENTIALS = {"potential_real", "potential_imag", "potential_infinite", "panel_corners"}
@@ -59,16 +67,21 @@ class HydroDatabase:
 
     @classmethod
     def compute(cls, ship: Ship, method: str = "bem", progress: Progress | None = None) -> "HydroDatabase":
-        """Solve the radiation problems of a ship; seconds to a minute.
+        """Solve the radiation problems of a ship: by "bem" in seconds to a minute, by "strip" in two seconds.
 
-        A ship with a hull form is panelled anew, as finely as the frequencies need; one without is solved
-        on its own mesh, coarse panels split in four. `progress(done, total)` counts frequencies.
-        Raises PanelsimError for another method than "bem" and for a solution that is not physical.
+        "bem" are boundary elements in three dimensions, "strip" is strip theory on 21 sections cut from the
+        panels (`panelsim.hydro.strip.assembly`): for a slender hull, without surge, and with coefficients by
+        section. A ship with a hull form is panelled anew, as finely as the frequencies need; one without is
+        solved on its own mesh, for "bem" with coarse panels split in four. `progress(done, total)` counts
+        frequencies or sections. Raises PanelsimError for another method, for a solution that is not physical
+        and for sections that cannot be cut.
         """
-        if method != "bem":
-            raise PanelsimError("This method is not known", got=method, allowed="bem")
+        if method not in METHODS:
+            raise PanelsimError("This method is not known", got=method, allowed=" | ".join(METHODS))
         solved = _panelled_for_solution(ship)
         _require_same_flotation(ship, solved)
+        if method == "strip":
+            return cls.of_ship(solved, _solve_strips(solved, progress))
         mesh = solved.mesh if ship.form is not None else _refined(ship)
         wet = _wet_panels(ship, mesh)
         resolved = highest_resolved_frequency(float(mesh.area[wet].mean()), ship.gravity)
@@ -283,6 +296,24 @@ def frequency_grid(length: float, highest: float = np.inf) -> FloatArray:
     """Frequencies (F,) [rad/s] from 0 for a ship of this length [m], drawn together to end by `highest`."""
     scale = np.sqrt(_REFERENCE_LENGTH / length)
     return _REFERENCE_FREQUENCIES * min(scale, highest / _REFERENCE_FREQUENCIES[-1])
+
+
+def strip_frequency_grid(length: float, highest: float = np.inf) -> FloatArray:
+    """`frequency_grid`, and beyond it as far as `highest` [rad/s] and five for a ship of 120 m."""
+    grid = frequency_grid(length, highest)
+    beyond = _REFERENCE_FREQUENCIES_BEYOND * np.sqrt(_REFERENCE_LENGTH / length)
+    return np.concatenate([grid, beyond[(beyond > grid[-1]) & (beyond <= highest)]])
+
+
+def _solve_strips(ship: Ship, progress: Progress | None) -> xr.Dataset:
+    sections = sections_of_mesh(ship.vertices, ship.mesh.panels, ship.waterline, _STRIPS)
+    return solve_strips(
+        sections,
+        water_density=ship.water_density,
+        gravity=ship.gravity,
+        frequencies=strip_frequency_grid(ship.length, highest_strip_frequency(sections, ship.gravity)),
+        progress=progress,
+    )
 
 
 def _panelled_for_solution(ship: Ship) -> Ship:

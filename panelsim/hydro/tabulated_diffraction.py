@@ -18,6 +18,7 @@ from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.conditioning import pair_scale
 from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.interpolation import complex_inertia
 from panelsim.seaway.dispersion import wavenumber
 
 # The widest steps of a table that a cubic follows: the phase of a wave at bow and stern may turn by so much
@@ -52,22 +53,6 @@ def tabulated_momentum(
     velocity = np.linalg.pinv(at_rest / pairs, rcond=_NO_INERTIA) @ (still / scale)[..., None]
     change = (complex_inertia(database, encounter) - at_rest) / pairs
     return still + scale * (change @ velocity)[..., 0]
-
-
-def complex_inertia(database: HydroDatabase, frequency: FloatArray) -> ComplexArray:
-    """Z = A + B/(iω) (M, 6, 6) at signed frequencies (M,) [rad/s]; Z(-ω) is the conjugate of Z(ω).
-
-    Cubic between the stored frequencies; beyond the last, Z(ω) = A∞ + (Z(last) - A∞) (last/ω)².
-    """
-    stored = database.frequencies
-    ratio = np.zeros_like(database.radiation_damping)
-    ratio[1:] = database.radiation_damping[1:] / stored[1:, None, None]
-    magnitude = np.abs(frequency)
-    spline = CubicSpline(stored, database.added_mass - 1j * ratio, bc_type=("clamped", "not-a-knot"))
-    fading = np.minimum(1.0, stored[-1] / np.maximum(magnitude, _ROUNDING))[:, None, None] ** 2
-    infinite = database.added_mass_infinite
-    inertia = infinite + (spline(np.minimum(magnitude, stored[-1])) - infinite) * fading
-    return np.where((frequency < 0.0)[:, None, None], inertia.conj(), inertia)
 
 
 def largest_frequency_step(database: HydroDatabase, frequency: FloatArray) -> FloatArray:

@@ -21,7 +21,7 @@ def coverage(database: HydroDatabase) -> str:
             "Diffraction: from potentials, at any wave frequency, heading and speed; panels resolve waves"
             f" that meet the ship at up to {frequency[-1]:.4g} rad/s."
         )
-        return "\n".join(lines)
+        return "\n".join([*lines, *database.notes])
     waves, headings = database.wave_frequencies, database.wave_headings
     lines += [
         f"Diffraction: tables at {_frequencies(database)} rad/s ({len(waves)} stored);"
