@@ -35,8 +35,9 @@ _WET_PANELS_OF_AN_OWN_MESH = 1200
 _REFERENCE_LENGTH = 120.0
 _REFERENCE_FREQUENCIES = np.array([*np.arange(4) / 20.0, *np.arange(2, 10) / 10.0, *np.arange(20, 53) / 20.0])
 
-# Sections resolve shorter waves than panels do; head seas at speed meet a ship that fast.
-_REFERENCE_FREQUENCIES_BEYOND = np.arange(14, 26) / 5.0
+# Strips are led to rest from 0.4 rad/s, which wants closer steps; and sections resolve shorter waves than
+# panels do, which a ship at speed meets in head seas.
+_MORE_FOR_STRIPS = np.array([0.25, 0.35, 0.45, 0.55, *np.arange(14, 26) / 5.0])
 _STRIPS = 21
 
 METHODS = ("bem", "strip")
@@ -299,10 +300,10 @@ def frequency_grid(length: float, highest: float = np.inf) -> FloatArray:
 
 
 def strip_frequency_grid(length: float, highest: float = np.inf) -> FloatArray:
-    """`frequency_grid`, and beyond it as far as `highest` [rad/s] and five for a ship of 120 m."""
+    """`frequency_grid` with closer steps at the lower end, and on to `highest` [rad/s] or 5 at 120 m."""
     grid = frequency_grid(length, highest)
-    beyond = _REFERENCE_FREQUENCIES_BEYOND * np.sqrt(_REFERENCE_LENGTH / length)
-    return np.concatenate([grid, beyond[(beyond > grid[-1]) & (beyond <= highest)]])
+    more = _MORE_FOR_STRIPS * grid[-1] / _REFERENCE_FREQUENCIES[-1]
+    return np.union1d(grid, more[more <= highest])
 
 
 def _solve_strips(ship: Ship, progress: Progress | None) -> xr.Dataset:

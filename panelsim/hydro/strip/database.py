@@ -59,8 +59,8 @@ def solve_strips(
         gravity=gravity,
         lowest_strip_frequency=lowest,
         solver=f"strip theory, {len(solutions)} sections of {ELEMENTS} elements",
-        notes="Strip theory: no radiation and no diffraction in surge; heave and pitch are led to their limits"
-        f" at rest below {lowest:.3g} rad/s, where waves are longer than three ships.",
+        notes="Strip theory: no radiation and no diffraction in surge; heave and pitch are led to their"
+        f" limits at rest below {lowest:.3g} rad/s, where waves are longer than three ships.",
     )
 
 
