@@ -71,8 +71,14 @@ _HOMES = {
     "HydroDatabase": "hydro.database",
     "database_for": "hydro.store",
     "pressure_force": "loads.wetted_surface",
+    "WettedSurface": "loads.wetted_surface",
+    "Instant": "loads.load",
+    "pressure_stiffness": "loads.derivatives",
+    "hull_pressure": "loads.hull_pressure",
+    "HullPressure": "loads.hull_pressure",
     "Supplementary": "loads.supplementary",
     "simulate": "motion.simulate",
+    "simulate_batch": "motion.simulate",
     "History": "motion.history",
     "statistics": "results.statistics",
     "report": "view.report",
@@ -98,10 +104,16 @@ if TYPE_CHECKING:
     from panelsim.hull.readers import read_mesh as read_mesh
     from panelsim.hydro.database import HydroDatabase as HydroDatabase
     from panelsim.hydro.store import database_for as database_for
+    from panelsim.loads.derivatives import pressure_stiffness as pressure_stiffness
+    from panelsim.loads.hull_pressure import HullPressure as HullPressure
+    from panelsim.loads.hull_pressure import hull_pressure as hull_pressure
+    from panelsim.loads.load import Instant as Instant
     from panelsim.loads.supplementary import Supplementary as Supplementary
+    from panelsim.loads.wetted_surface import WettedSurface as WettedSurface
     from panelsim.loads.wetted_surface import pressure_force as pressure_force
     from panelsim.motion.history import History as History
     from panelsim.motion.simulate import simulate as simulate
+    from panelsim.motion.simulate import simulate_batch as simulate_batch
     from panelsim.results.statistics import statistics as statistics
     from panelsim.seaway.climate.limits import buckley_height as buckley_height
     from panelsim.seaway.climate.scatter import ScatterTable as ScatterTable

@@ -89,17 +89,19 @@ def rotation_to_earth(roll: float, pitch: float, yaw: float) -> FloatArray:
 
 
 def load_to_earth(load_in_ship_axes: FloatArray, displacement: FloatArray) -> FloatArray:
-    """Turn force and moment (6,) about the CG from ship axes into translating earth axes.
+    """Turn force and moment (6,) or (B, 6) about the CG from ship axes into translating earth axes.
 
     The force by Rz Ry Rx; the moments become those conjugate to the yaw-pitch-roll angles,
     the exact form of TM 2003-190 (60)-(62) (printed with F6 sin for F6 cos in (62)):
     Q4 = F4, Q5 = F5 cos η4 - F6 sin η4, Q6 = -F4 sin η5 + (F5 sin η4 + F6 cos η4) cos η5.
-    N and N m; displacement (6,) in m and rad.
+    N and N m; displacement of the same shape in m and rad.
     """
-    roll, pitch, yaw = displacement[3:6]
-    force = rotation_to_earth(roll, pitch, yaw) @ load_in_ship_axes[:3]
-    m4, m5, m6 = load_in_ship_axes[3:6]
-    cr, sr, cp, sp = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch)
-    q5 = m5 * cr - m6 * sr
-    q6 = -m4 * sp + (m5 * sr + m6 * cr) * cp
-    return np.array([force[0], force[1], force[2], m4, q5, q6])
+    angles = displacement[..., 3:6].T
+    (cr, cp, cy), (sr, sp, sy) = np.cos(angles), np.sin(angles)
+    # Force and moment side by side. A moment turns only by the angles inside its own.
+    x, y, z = load_in_ship_axes.T.reshape(2, 3, *displacement.shape[:-1]).swapaxes(0, 1)
+    y, z = y * cr - z * sr, y * sr + z * cr
+    vertical = z * cp - x * sp
+    forward, sideways = x[0] * cp + z[0] * sp, y[0]
+    surge, sway = forward * cy - sideways * sy, forward * sy + sideways * cy
+    return np.array([surge, sway, vertical[0], x[1], y[1], vertical[1]]).T

@@ -119,6 +119,8 @@ def test_a_misspelt_key_is_not_called_missing_as_well(tmp_path: Path) -> None:
         ("ship.hull=", ["ship.hull is not a name"]),
         ("seaway.frequencies=[0.1, 0.2]", ["seaway.frequencies is not a table"]),
         ("run=5", ["run is not a table"]),
+        ("run.pressure_method=gird", ["run.pressure_method is not known", "'grid'"]),
+        ("run.pressure_rule=vertices", ["run.pressure_rule is not known", "'vertex+centre'"]),
         ("seaway.kind=randm", ["seaway.kind is not known", "'random', 'regular', 'calm'"]),
         ("supplementary.damping.roll=nan", ["not a finite number"]),
     ],

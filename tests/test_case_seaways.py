@@ -49,11 +49,11 @@ shape = 1.5
 """
 
 
-def case_of(folder: Path, seaway: str, course: float | None = None) -> Case:
+def case_of(folder: Path, seaway: str, course: float | None = None, overrides: tuple[str, ...] = ()) -> Case:
     text = REST if course is None else f"{REST}ship_heading_deg = {course}\n"
     path = folder / "trial.toml"
     path.write_text(f"{text}[seaway]\n{seaway}", encoding="utf-8")
-    return Case.load(path)
+    return Case.load(path, overrides)
 
 
 def random_sea(folder: Path, seaway: str, course: float | None = None) -> RandomSeaway:
@@ -163,6 +163,8 @@ def test_stokes_waves_and_wave_length(tmp_path: Path) -> None:
     assert waves.second_order
     assert waves.wavenumber()[0] == pytest.approx(2 * np.pi / 100, rel=1e-12)
     assert not case_of(tmp_path, keys).seaway.components.second_order
+    with pytest.raises(PanelsimError, match=r"no grid[\s\S]*run.pressure_method"):
+        case_of(tmp_path, keys + 'wave_theory = "stokes"', overrides=("run.pressure_method=grid",))
 
 
 def test_components_of_a_file_are_those_that_were_written(tmp_path: Path) -> None:
@@ -490,8 +492,11 @@ def test_a_buoy_tells_the_direction_where_the_case_does_not(tmp_path: Path) -> N
 
 
 def test_a_sea_of_very_many_components_is_warned_of(tmp_path: Path) -> None:
-    keys = f"{RANDOM}sea_state = 6\nwave_heading_deg = 0\n"
+    keys = f"{RANDOM}sea_state = 6\nwave_heading_deg = 0\ndirection_step_deg = 10\n"
+    keys += 'spreading = { kind = "cosine-squared", spreading_angle_deg = 90 }\n'
     grid = "frequencies = {{ start = 0.2, stop = 2.0, step = {} }}\n"
-    told = [case_of(tmp_path, keys + grid.format(step)).warnings() for step in (0.0005, 0.01)]
-    assert ["3601 components" in warning for warning in told[0]].count(True) == 1
+    cases = [case_of(tmp_path, keys + grid.format(step)) for step in (0.001, 0.1)]
+    assert cases[0].seaway.components.count > 20_000
+    told = [case.warnings() for case in cases]
+    assert ["components" in warning for warning in told[0]].count(True) == 1
     assert not any("components" in warning for warning in told[1])

@@ -45,6 +45,7 @@ def test_each_example_has_its_test() -> None:
     assert names == {
         *("quickstart.py", "own_mesh.py", "own_mesh.toml", "halifax_sea_state_7.toml"),
         *("seas.py", "short_crested_sea.toml", "recorded_sea.py", "recorded_sea.toml"),
+        "batch.py",
     }
 
 
@@ -106,6 +107,16 @@ def test_a_ship_that_turns_stays_in_the_same_sea() -> None:
     assert abs(before - after) < 1e-9  # rounding of phases of some hundred radians
     # JONSWAP with γ 3.3: T1 = 0.8343 T_p and T_z = 0.7774 T_p.
     assert seas.periods == pytest.approx((8.343, 7.774), abs=2e-3)
+
+
+def test_a_batch_tells_the_heading_from_chance() -> None:
+    batch = load_example("batch")
+    assert {history.outcome for history in batch.histories} == {"finished"}
+    assert [history.attrs["seed"] for history in batch.histories] == 3 * [1, 2, 3, 4]
+    by_heading = batch.roll.mean(axis=1)
+    # The nearer to the beam, the more she rolls, by more than the seeds scatter; that is a fifth or so.
+    assert (np.diff(by_heading) > batch.roll.std(axis=1, ddof=1)[:-1]).all()
+    assert by_heading[-1] > 2.0 * by_heading[0]
 
 
 def test_a_short_crested_sea_runs(tmp_path: Path) -> None:

@@ -568,9 +568,9 @@ def test_what_cannot_be_is_refused(barge: Ship) -> None:
             hull_pressure(barge, CALM, 0.0, displacement)
     with pytest.raises(PanelsimError, match=r"25.0[\s\S]*np.radians"):
         hull_pressure(barge, CALM, 0.0, [0, 0, 0, 25.0, 0, 0])
-    with pytest.raises(PanelsimError, match="time nan"):
+    with pytest.raises(PanelsimError, match="time is out of range"):
         hull_pressure(barge, CALM, np.nan, still)
-    with pytest.raises(PanelsimError, match="speed inf"):
+    with pytest.raises(PanelsimError, match="speed is out of range"):
         hull_pressure(barge, CALM, 0.0, still, speed=np.inf)
     for name, value in (("stretching", "airy"), ("rule", "simpson"), ("method", "fast")):
         with pytest.raises(PanelsimError, match=value):

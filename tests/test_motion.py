@@ -290,6 +290,17 @@ def test_limits_name_the_outcome() -> None:
     assert outcome(unlimited, roll=3.0) is None
 
 
+def test_the_quick_look_at_the_limits_misses_none() -> None:
+    """Inside `safe` no limit is exceeded; just beyond, all are but the drift, which is a hypotenuse."""
+    limits = Limits(capsize_angle=1.2, heave=60.0, drift=12000.0)
+    rest = np.zeros(6)
+    for signs in np.random.default_rng(1).choice([-1.0, 1.0], (64, 6)):
+        assert limits.exceeded(signs * limits.safe, rest) is None
+    for dof in (2, 3, 4, 5):
+        assert limits.exceeded(-1.0001 * limits.safe[dof] * np.eye(6)[dof], rest) is not None
+    assert Limits(capsize_angle=0.0, heave=60.0, drift=12000.0).safe[3] == np.inf
+
+
 @pytest.mark.parametrize(
     ("given", "words"),
     [
@@ -308,7 +319,7 @@ def test_limits_name_the_outcome() -> None:
         ({"time_step": 1e-4, "duration": 1e5}, "too many steps"),
         ({"database": "halifax.nc"}, "The database is of another kind"),
         ({"supplementary": {}}, "The supplementary is of another kind"),
-        ({"notes": "abc"}, "The notes are one text"),
+        ({"notes": "abc"}, "The notes are no list of texts"),
         ({"initial_displacement": "here"}, "initial_displacement is not six finite numbers"),
         ({"initial_displacement": (0, 0, 0)}, "initial_displacement is not six finite numbers"),
         ({"initial_velocity": (np.inf,) * 6}, "initial_velocity is not six finite numbers"),

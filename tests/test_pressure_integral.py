@@ -1,5 +1,8 @@
 """Methods and batches of the pressure integral: the same answer by all, the same bits in any company."""
 
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -233,3 +236,148 @@ def test_pressures_at_points_come_from_the_grid_too(panels: PanelTables) -> None
     assert 0.0 < np.abs(apart).max() < DEFAULT_TOLERANCE * 4.0 * PLANE.standard_deviation
     with pytest.raises(PanelsimError, match="one sea and one pose"):
         PressureIntegral(panels, [PLANE, LINE], **GIVEN).at_points(pose)
+
+
+def test_a_turn_from_one_sector_to_the_next_changes_the_grid(panels: PanelTables) -> None:
+    """Each heading as if it were the first; full turns lead back to the same grid."""
+    kept = PressureIntegral(panels, [PLANE], method="grid", **GIVEN)
+    pose = poses(1)
+    for yaw in np.deg2rad([0.0, 20.0, 40.0, -20.0, 20.0, 355.0, 380.0]):
+        pose[0, 7] = yaw
+        fresh = PressureIntegral(panels, [PLANE], method="grid", **GIVEN)
+        np.testing.assert_array_equal(kept(pose), fresh(pose))
+    pose[0, 7] = np.deg2rad(20.0)
+    before = kept(pose)
+    pose[0, 7] += 2.0 * np.pi
+    # A full turn is not quite 2π in floating point.
+    np.testing.assert_allclose(kept(pose), before, atol=1e-12 * np.abs(before).max())
+
+
+@pytest.mark.parametrize("factor", [-1.0, 2.5])
+@pytest.mark.parametrize("method", ["direct", "grid"])
+def test_any_factor_on_the_waves_is_bounded_by_its_size(
+    panels: PanelTables, method: str, factor: float
+) -> None:
+    """A hull that hangs above calm water meets crests only; a bound of wrong sign would pass them by."""
+    given = poses(6)
+    given[:, 1], given[:, 4] = factor, 4.0
+    waves = sea(37, 2.6, spread=0.5)
+    waves = replace(waves, amplitude=np.where(np.arange(37) % 2, -1.0, 1.0) * waves.amplitude)
+    loads = [wetted_surface_load(panels, waves, given, method=name, **GIVEN) for name in (method, "oracle")]
+    assert (loads[1][:, 2] > 0.0).any()
+    allowed = {"direct": 1e-11, "grid": abs(factor) * DEFAULT_TOLERANCE}[method]
+    assert (np.abs(loads[0] - loads[1]).max(axis=0) <= allowed * np.abs(loads[1]).max(axis=0)).all()
+
+
+def test_a_wet_centre_among_dry_corners_counts_on_the_grid_too() -> None:
+    """Flat panels of a lid so wide that a crest stands under the middle of one of them alone."""
+    corners = np.array([[i & 1, i >> 1 & 1, i >> 2] for i in range(8)]) * [30.0, 30.0, 4.0] - [
+        15.0,
+        15.0,
+        -1.0,
+    ]
+    faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+    lid = panel_tables(corners, np.array(faces))
+    k = 2.0 * np.pi / np.linspace(28.0, 34.0, 12)
+    waves = wave_tables(np.full(12, 0.3), k, np.tile([2.0, 0.4], 6), np.sqrt(9.81 * k), np.zeros(12))
+    level = {**GIVEN, "waterline": 0.0}
+    given = np.array([[0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]])
+    loads = {
+        method: wetted_surface_load(lid, waves, given, method=method, **level)[0]
+        for method in ("grid", "direct", "oracle")
+    }
+    assert loads["oracle"][2] > 1e4
+    np.testing.assert_allclose(loads["direct"], loads["oracle"], atol=1e-11 * loads["oracle"][2])
+    np.testing.assert_allclose(loads["grid"], loads["oracle"], atol=1e-5 * loads["oracle"][2])
+
+
+def test_grids_of_other_makes_share_a_batch(panels: PanelTables) -> None:
+    """Lines and planes of 8 and of 16 depth terms."""
+    short = wave_tables(
+        [0.1] * 40, np.linspace(0.5, 4.0, 40), [2.0] * 40, np.linspace(2.0, 6.0, 40), np.arange(40.0) % 6
+    )
+    seas = [
+        LINE,
+        PLANE,
+        short,
+        replace(short, wavenumber_y=short.wavenumber_y * np.linspace(-1, 1, 40)),
+        LINE,
+    ]
+    given = poses(len(seas))
+    together = PressureIntegral(panels, seas, method="grid", **GIVEN)
+    makes = {(made.plan.kind, made.plan.depth.terms) for made in together._parts[0][1]._grids.values()}
+    assert len(makes) > 2 and {terms for _, terms in makes} == {8, 16}
+    for i, waves in enumerate(seas):
+        alone = PressureIntegral(panels, [waves], method="grid", **GIVEN)
+        np.testing.assert_array_equal(alone(given[i : i + 1])[0], together(given)[i])
+
+
+def test_a_launch_takes_no_more_rows_than_it_can_count(
+    panels: PanelTables, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Else the row numbers of the last seas would begin again at the first."""
+    given, seas = poses(5), [LINE, PLANE, LINE, sea(60, 1.0), PLANE]
+    loads = PressureIntegral(panels, seas, method="grid", **GIVEN)(given)
+    monkeypatch.setattr(grid.at, "MOST_ROWS", 3000)
+    split = PressureIntegral(panels, seas, method="grid", **GIVEN)
+    assert len(split._parts[0][1]._launched) > 2
+    np.testing.assert_array_equal(split(given), loads)
+
+
+def test_many_waves_of_second_order_are_summed_directly(panels: PanelTables) -> None:
+    many = replace(LINE, second_order=True)
+    assert PressureIntegral(panels, [many, LINE], **GIVEN).methods == ("direct", "grid")
+
+
+def test_waves_too_low_to_count_are_no_reason_for_a_fine_grid(panels: PanelTables) -> None:
+    amplitude, k = np.append(LINE.amplitude, [0.0, 1e-170]), np.append(LINE.wavenumber, [1e3, 1e3])
+    low = wave_tables(
+        amplitude,
+        k,
+        np.full(39, 2.6),
+        np.append(LINE.encounter_frequency, [9.0, 9.0]),
+        np.append(LINE.phase, [0.0, 0.0]),
+    )
+    given = poses(2)
+    np.testing.assert_allclose(
+        wetted_surface_load(panels, low, given, method="grid", **GIVEN),
+        wetted_surface_load(panels, LINE, given, method="grid", **GIVEN),
+        rtol=1e-10,
+    )
+    still = wave_tables([1e-170], [0.1], [1.0], [1.0], [0.0])
+    assert PressureIntegral(panels, [still], method="grid", **GIVEN).methods == ("direct",)
+
+
+@pytest.mark.parametrize("length", [1.0, 15.0])
+def test_small_hulls_have_a_finer_grid(length: float) -> None:
+    """Their wave load is what is left of pressures that all but cancel."""
+    scale = length / 124.5
+    small = panel_tables(SHIP.vertices * scale, SHIP.mesh.panels)
+    level = {**GIVEN, "waterline": SHIP.waterline * scale}
+    given = poses(6, yaw=0.02)
+    given[:, 2:5] *= scale
+    k, phase = PLANE.wavenumber_x, PLANE.phase
+    crest = [
+        np.sum(
+            PLANE.amplitude * np.cos(k * x + PLANE.wavenumber_y * y - PLANE.encounter_frequency * t - phase)
+        )
+        for t, x, y in given[:, [0, 2, 3]]
+    ]
+    given[:, 4] += crest  # it rides the waves
+    apart = np.abs(
+        wetted_surface_load(small, PLANE, given, method="grid", **level)
+        - wetted_surface_load(small, PLANE, given, method="direct", **level)
+    )
+    weight = wetted_surface_load(small, CALM, np.zeros((1, 8)), **level)[0, 2]
+    # Of the weight; a least tolerance of 1e-7 of the elevation is some ten thousandth of a hull of one metre.
+    assert apart[:, 2].max() < {1.0: 2e-5, 15.0: 2e-6}[length] * weight
+
+
+def test_threads_may_share_an_integral(panels: PanelTables) -> None:
+    """One at a time: the methods write into arrays of their own."""
+    integral = PressureIntegral(panels, [LINE], **GIVEN)
+    given = poses(64)
+    alone = integral(given)
+    with ThreadPoolExecutor(4) as pool:
+        loads = list(pool.map(lambda pose: integral(pose[None])[0], given))
+    np.testing.assert_array_equal(loads, alone)

@@ -360,13 +360,16 @@ ti.init(arch=ti.cpu, default_fp=ti.f64, fast_math=False)
 program = ti.lang.impl.get_runtime().prog
 runtime.start()
 assert ti.lang.impl.get_runtime().prog is program
-ti.init(arch=ti.cpu, default_fp=ti.f64, fast_math=True)
-try:
-    runtime.start()
-except PanelsimError as error:
-    print(error)
+for other in ({"fast_math": True}, {"default_ip": ti.i64}, {"debug": True}, {"default_fp": ti.f32}):
+    ti.init(**({"arch": ti.cpu, "default_fp": ti.f64, "fast_math": False, "log_level": ti.ERROR} | other))
+    try:
+        runtime.start()
+    except PanelsimError as error:
+        print(error)
 """
-    assert "fast_math=True" in in_a_fresh_process(script)
+    told = in_a_fresh_process(script)
+    for word in ("fast_math=True", "default_ip=i64", "debug=True", "default_fp=f32"):
+        assert word in told
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows does not fork")
@@ -385,3 +388,63 @@ if os.fork() == 0:
 os.wait()
 """
     assert "spawn" in in_a_fresh_process(script)
+
+
+FIRST_CALLS = """
+import numpy as np
+import panelsim as ps
+ship, sea = ps.load_ship("halifax", 10.0), ps.RegularSeaway(2.0, 0.6, 2.0)
+"""
+
+
+def test_threads_may_make_the_first_calls_together() -> None:
+    """Taichi compiles one kernel at a time and is confused by a second."""
+    script = (
+        FIRST_CALLS
+        + """
+from concurrent.futures import ThreadPoolExecutor
+with ThreadPoolExecutor(4) as pool:
+    loads = list(pool.map(lambda roll: ps.pressure_force(ship, sea, 3.0, [0, 0, 0, roll, 0, 0]), [0.1] * 8))
+print(len({load.tobytes() for load in loads}))
+"""
+    )
+    assert in_a_fresh_process(script) == "1\n"
+
+
+def test_an_interrupt_while_a_kernel_compiles_is_raised() -> None:
+    """Taichi swallows it there, and a run would go on to its end."""
+    script = (
+        FIRST_CALLS
+        + """
+import os, signal
+from panelsim.kernels import runtime
+original = runtime.Launch._prepare
+def prepare(self):
+    os.kill(os.getpid(), signal.SIGINT)
+    original(self)
+runtime.Launch._prepare = prepare
+try:
+    ps.pressure_force(ship, sea, 3.0, [0.0] * 6)
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+    )
+    assert in_a_fresh_process(script) == "interrupted\n"
+
+
+def test_a_launch_outlives_the_runtime_it_was_made_for() -> None:
+    script = (
+        FIRST_CALLS
+        + """
+from panelsim.kernels import runtime
+from panelsim.loads.load import Instant
+load = ps.WettedSurface(ship, [sea.components], [0.0])
+rest = Instant(3.0, 1.0, np.zeros((1, 6)), np.zeros((1, 6)))
+before = load.in_ship_axes(rest)
+ti = runtime.import_taichi()
+ti.reset()
+ti.init(arch=ti.cpu, default_fp=ti.f64, fast_math=False, log_level=ti.ERROR)
+print(np.array_equal(load.in_ship_axes(rest), before))
+"""
+    )
+    assert in_a_fresh_process(script).splitlines()[-1] == "True"

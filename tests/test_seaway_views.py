@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from panelsim.conventions import KNOT, STANDARD_GRAVITY, STRETCHINGS
 from panelsim.errors import PanelsimError
-from panelsim.motion.simulate import _wave_elevation
+from panelsim.motion.batch import wave_elevation
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.fixed import FixedSeaway, ship_position
 from panelsim.seaway.random import RandomSeaway
@@ -571,9 +571,9 @@ def test_the_second_order_grows_with_the_square_of_the_ramp() -> None:
     k = omega**2 / STANDARD_GRAVITY
     theta = -(omega + SPEED * k) * t - 0.2
     expected = factor * a * np.cos(theta) + factor**2 * 0.5 * a**2 * k * np.cos(2 * theta)
-    np.testing.assert_allclose(_wave_elevation(sea, t, factor), expected, atol=1e-12)
+    np.testing.assert_allclose(wave_elevation(sea, t, factor), expected, atol=1e-12)
     linear = replace(sea, components=replace(sea.components, second_order=False))
-    np.testing.assert_array_equal(_wave_elevation(linear, t, factor), factor * linear.elevation(0, 0, t))
+    np.testing.assert_array_equal(wave_elevation(linear, t, factor), factor * linear.elevation(0, 0, t))
 
 
 WAVE = RegularSeaway(1.0, 0.6, 0.3)

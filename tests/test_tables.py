@@ -150,6 +150,17 @@ def test_points_are_ordered_by_height_and_filled_up_with_copies() -> None:
     assert not built.response["vertex"][16:].any()
 
 
+def test_spans_hold_every_panel_that_has_a_point_of_the_block() -> None:
+    panels = np.vstack([BOX_PANELS, BOX_PANELS[::-1] + 8])
+    built = panel_tables(np.vstack([BOX, np.add(BOX, [0.0, 0.0, 9.0])]), panels)  # a box above a box
+    owners = np.column_stack([built.panels, built.first_centre + np.arange(12)]) // 8
+    for block, (begin, end) in enumerate(built.spans):
+        having = np.flatnonzero((owners == block).any(axis=1))
+        assert (begin, end) == (having[0], having[-1] + 1)
+    assert built.spans.tolist() == [[0, 6], [6, 12], [0, 8], [8, 12]]
+    np.testing.assert_array_equal(built.corners[5, 3:6], built.points[built.panels[5, 1]])
+
+
 def test_reach_is_the_longest_edge_or_diagonal_at_a_point_and_half_a_diagonal_at_a_centre() -> None:
     built = panel_tables(BOX, BOX_PANELS)
     np.testing.assert_allclose(built.reach[:8], np.hypot(6.0, 4.0), rtol=ROUND_OFF)

@@ -22,8 +22,8 @@ from panelsim.ship.bundled import default_panel_area
 from panelsim.ship.facts import ship_warnings
 from panelsim.ship.ship import Ship
 
-# At this many a force on a medium mesh takes some seven milliseconds, and an hour of sea eight minutes.
-MANY_COMPONENTS = 2000
+# At this many a force on a medium mesh takes some three milliseconds, and an hour of sea four minutes.
+MANY_COMPONENTS = 20_000
 
 
 class Case:

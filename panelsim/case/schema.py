@@ -68,6 +68,8 @@ class RunSection(Section):
     duration: Annotated[float, Field(gt=0, le=1e6)]  # s, after the ramp
     ramp: Annotated[float, Field(ge=0, le=1e5)] = 60.0  # s
     capsize_angle_deg: Annotated[float, Field(ge=0, le=180)] = 90.0
+    pressure_method: Literal["auto", "direct", "grid", "oracle"] = "auto"
+    pressure_rule: Literal["vertex+centre", "vertex", "panel"] = "vertex+centre"
 
     @model_validator(mode="after")
     def _steps(self) -> "RunSection":
@@ -111,6 +113,15 @@ class CaseFile(Section):
     seaway: SeawaySection
     run: RunSection
     supplementary: SupplementarySection = SupplementarySection()
+
+    @model_validator(mode="after")
+    def _stokes(self) -> "CaseFile":
+        if self.seaway.wave_theory == "stokes" and self.run.pressure_method == "grid":
+            raise ValueError(
+                "a Stokes wave goes on no grid: set run.pressure_method to auto or direct,"
+                " or seaway.wave_theory to linear"
+            )
+        return self
 
     @model_validator(mode="after")
     def _course(self) -> "CaseFile":

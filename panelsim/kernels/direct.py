@@ -47,6 +47,7 @@ class DirectMethod:
             self._components,
             ranges,
             self._state,
+            *self._hull.cutting,
             self._exchange,
             *self._hull.arguments,
             self._second_order,

@@ -10,7 +10,7 @@ Taichi reads the annotations of this module itself: no `from __future__ import a
 import numpy as np
 
 from panelsim.kernels import runtime
-from panelsim.kernels.cut_panels import SURFACE_HEAD
+from panelsim.kernels.cut_panels import SURFACE_HEAD, Four
 from panelsim.kernels.exchange import DISPLACEMENT, LOAD, TIME, WAVE_FACTOR
 from panelsim.kernels.lanes import Lanes, cos_of_turns, exp2
 from panelsim.kernels.ship_points import (
@@ -29,6 +29,8 @@ LOG_2 = float(np.log(2.0))
 Matrix = ti.types.ndarray(dtype=ti.f64, ndim=2)
 Blocks = ti.types.ndarray(dtype=ti.f64, ndim=3)
 Integers = ti.types.ndarray(dtype=ti.i32, ndim=2)
+CutRows = ti.types.ndarray(dtype=Four, ndim=1)
+Numbers = ti.types.ndarray(dtype=ti.i32, ndim=1)
 
 # Columns of a wave component: those of WaveTables.columns, then what changes with pose and block.
 AMPLITUDE, KX, KY, DECAY, FREQUENCY, LEAD = range(6)
@@ -43,6 +45,10 @@ def integrate_directly(
     components: Matrix,
     ranges: Integers,
     state: Matrix,
+    cut: Numbers,
+    room: CutRows,
+    spans: Integers,
+    corners: Matrix,
     exchange: Matrix,
     first: ti.i32,
     stop: ti.i32,
@@ -74,7 +80,20 @@ def integrate_directly(
                     head = _wave_head(components, low, high, ti.max(submergence, 0.0)) - height
             store_heads(state, k, submergence, head)
         load = integrate_heads(
-            blocks, panels, state, first, stop, first_centre, cuts, centres, wheeler, second_order
+            blocks,
+            panels,
+            state,
+            cut,
+            room,
+            spans,
+            corners,
+            first,
+            stop,
+            first_centre,
+            cuts,
+            centres,
+            wheeler,
+            second_order,
         )
         for i in ti.static(range(6)):
             exchange[b, LOAD + i] = load[i]

@@ -3,8 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from panelsim.conventions import FloatArray
+from panelsim.kernels.cut_panels import ROOM_ROWS, TOGETHER
 from panelsim.kernels.tables import LANES, PanelTables
 
 # Columns of the exchange: a pose goes in, a load comes out.
@@ -58,6 +60,12 @@ class Hull:
         state = np.zeros((3, len(self.panels.points)))
         state[0] = -1.0
         return state
+
+    @property
+    def cutting(self) -> tuple[NDArray[np.int32], FloatArray, NDArray[np.int32], FloatArray]:
+        """Room for the numbers of cut panels and for four of them; where to look for them; their corners."""
+        numbers = np.zeros(len(self.panels.panels), dtype=np.int32)
+        return numbers, np.zeros((ROOM_ROWS, TOGETHER)), self.panels.spans, self.panels.corners
 
     def at_points(self, state: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Copies of submergence, head and the head to interpolate to a cut, from what a kernel has left.

@@ -16,7 +16,7 @@ from panelsim.kernels.tables import LANES
 ti = runtime.import_taichi()
 
 LANE_BITS = LANES.bit_length() - 1  # LANES is a power of two
-MASK = (1 << 24) - 1  # far more rows than the largest grid has
+MASK = at.MOST_ROWS - 1
 # What the scratch begins with, four rows for eight waves: phase [turns] and height at the centre of the box,
 # then real and imaginary part of a exp(iθ) over the transfer function.
 PHASE, CREST, REAL, IMAGINARY = range(4)

@@ -7,6 +7,7 @@ Taichi reads the annotations of this module itself: no `from __future__ import a
 
 from panelsim.kernels import runtime
 from panelsim.kernels import wave_grid as at
+from panelsim.kernels.cut_panels import Four
 from panelsim.kernels.exchange import DISPLACEMENT, LOAD, TIME, WAVE_FACTOR
 from panelsim.kernels.grid_fill import fill_grid, number
 from panelsim.kernels.grid_pressure import elevation_bound, grid_elevation_and_head
@@ -24,6 +25,8 @@ ti = runtime.import_taichi()
 Matrix = ti.types.ndarray(dtype=ti.f64, ndim=2)
 Blocks = ti.types.ndarray(dtype=ti.f64, ndim=3)
 Integers = ti.types.ndarray(dtype=ti.i32, ndim=2)
+CutRows = ti.types.ndarray(dtype=Four, ndim=1)
+Numbers = ti.types.ndarray(dtype=ti.i32, ndim=1)
 Rows = ti.types.ndarray(dtype=Lanes, ndim=1)
 Starts = ti.types.ndarray(dtype=ti.i32, ndim=1)
 
@@ -37,6 +40,10 @@ def integrate_on_grid(
     starts: Starts,
     scratch: Rows,
     state: Matrix,
+    cut: Numbers,
+    room: CutRows,
+    spans: Integers,
+    corners: Matrix,
     exchange: Matrix,
     first: ti.i32,
     stop: ti.i32,
@@ -71,7 +78,20 @@ def integrate_on_grid(
                 submergence, head = elevation - height, wave_head - height
             store_heads(state, k, submergence, head)
         load = integrate_heads(
-            blocks, panels, state, first, stop, first_centre, cuts, centres, wheeler, False
+            blocks,
+            panels,
+            state,
+            cut,
+            room,
+            spans,
+            corners,
+            first,
+            stop,
+            first_centre,
+            cuts,
+            centres,
+            wheeler,
+            False,
         )
         for i in ti.static(range(6)):
             exchange[b, LOAD + i] = load[i]

@@ -191,10 +191,19 @@ def _node_coordinates(tables: ti.template(), base, x, y, line: ti.template()):
 def _are_inside(tables: ti.template(), base, u, v, line: ti.template()):
     """Whether all nodes about all eight points exist."""
     margin = 0.5 * (number(tables, base, at.DEGREE) - 1.0)
-    inside = u.min() >= margin and u.max() < number(tables, base, at.NODES_X) - 1.0 - margin
+    inside = _are_between(u, margin, number(tables, base, at.NODES_X) - 1.0 - margin)
     if ti.static(not line):
-        inside = inside and v.min() >= margin and v.max() < number(tables, base, at.NODES_Y) - 1.0 - margin
+        inside &= _are_between(v, margin, number(tables, base, at.NODES_Y) - 1.0 - margin)
     return inside
+
+
+@ti.func
+def _are_between(values, low, high):
+    """Whether low <= value < high for all eight, compared side by side."""
+    between = 1
+    for lane in ti.static(range(LANES)):
+        between &= ti.cast(values[lane] >= low, ti.i32) & ti.cast(values[lane] < high, ti.i32)
+    return between == 1
 
 
 @ti.func

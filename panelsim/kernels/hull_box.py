@@ -1,11 +1,12 @@
-"""How much water about a moving hull a wave grid must cover."""
+"""How much water about a moving hull a wave grid must cover, and how exactly."""
 
 from itertools import product
 
 import numpy as np
 
 from panelsim.conventions import FloatArray, rotation_to_earth
-from panelsim.kernels.grid_plan import GridBox
+from panelsim.kernels.grid_plan import LEAST_TOLERANCE, GridBox
+from panelsim.kernels.tables import WaveTables
 
 # A grid is made for headings within half of this of its own axes, and another one beyond.
 SECTOR = np.deg2rad(10.0)
@@ -14,6 +15,18 @@ ROLLS, PITCHES = np.deg2rad([-30.0, -15.0, 0.0, 15.0, 30.0]), np.deg2rad([-5.0, 
 # Heave and crest together, in standard deviations of the sea.
 RISE = 3.0
 MARGIN = 1.0  # m: a hull of one flat panel has a box too
+
+
+def hull_tolerance(points: FloatArray, waves: WaveTables, tolerance: float) -> float:
+    """The tolerance of a grid, such that the load of the waves has that of the elevation.
+
+    On a hull that is small against the waves their pressure all but cancels: to the part k L. k is the mean
+    over the energy, L the length of the hull, `points` (P, 3) in ship axes.
+    """
+    energy = waves.amplitude**2
+    length = float(np.ptp(points, axis=0).max())
+    share = length * float(energy @ waves.wavenumber) / float(energy.sum())
+    return max(tolerance * min(share, 1.0), min(tolerance, LEAST_TOLERANCE))
 
 
 def hull_box(points: FloatArray, waterline: float, standard_deviation: float) -> GridBox:

@@ -1,5 +1,6 @@
 """Incident-wave and buoyancy pressure integrated over the wetted hull, by whichever method is asked for."""
 
+import threading
 from collections.abc import Sequence
 from typing import NamedTuple, Protocol
 
@@ -12,7 +13,7 @@ from panelsim.kernels.direct import DirectMethod
 from panelsim.kernels.exchange import Hull
 from panelsim.kernels.grid import GridMethod
 from panelsim.kernels.grid_plan import DEFAULT_TOLERANCE, choose_method
-from panelsim.kernels.hull_box import hull_box
+from panelsim.kernels.hull_box import hull_box, hull_tolerance
 from panelsim.kernels.tables import PanelTables, WaveTables, checked_poses, require_rule, require_stretching
 
 
@@ -61,7 +62,7 @@ class PressureIntegral:
     ) -> None:
         require_stretching(stretching)
         require_rule(rule)
-        if method not in METHODS:
+        if not (isinstance(method, str) and method in METHODS):
             raise PanelsimError("Unknown method", got=repr(method)[:60], allowed=" | ".join(METHODS))
         if not seas:
             raise PanelsimError("There is no sea", allowed="one or more; calm water is a sea without waves")
@@ -70,6 +71,7 @@ class PressureIntegral:
         self.methods = tuple(_chosen(method, hull, sea, tolerance) for sea in seas)
         kinds = [(name, sea.second_order) for name, sea in zip(self.methods, seas, strict=True)]
         self._parts = []
+        self._busy = threading.Lock()  # the methods write into arrays of their own
         for kind in dict.fromkeys(kinds):
             members = np.flatnonzero([other == kind for other in kinds])
             self._parts.append(
@@ -85,6 +87,10 @@ class PressureIntegral:
         another shape or not finite.
         """
         poses = checked_poses(poses)
+        with self._busy:
+            return self._loads(poses)
+
+    def _loads(self, poses: FloatArray) -> FloatArray:
         if self._sea_count == 1:
             return self._parts[0][1].heads(poses) * self._weight_density
         if len(poses) != self._sea_count:
@@ -107,7 +113,8 @@ class PressureIntegral:
                 "Pressures at points are of one sea and one pose",
                 got=f"{self._sea_count} seas, {len(poses)} poses",
             )
-        submergence, head, to_cut = self._parts[0][1].at_points(poses)
+        with self._busy:
+            submergence, head, to_cut = self._parts[0][1].at_points(poses)
         return PointPressure(submergence, head * self._weight_density, to_cut * self._weight_density)
 
 
@@ -155,12 +162,14 @@ def _method(name: str, hull: Hull, seas: list[WaveTables], tolerance: float) -> 
 
 def _chosen(method: str, hull: Hull, sea: WaveTables, tolerance: float) -> str:
     """ "direct", "grid" or "oracle": calm water needs no grid, and "auto" takes what costs less."""
-    if method == "grid" and not sea.amplitude.any():
+    felt = sea.felt()
+    if method in ("auto", "grid") and not len(felt.amplitude):
         return "direct"
     if method != "auto":
         return method
     box = hull_box(hull.panels.points, hull.waterline, sea.standard_deviation)
-    return "direct" if choose_method(hull.point_count, sea, box, tolerance) == "direct" else "grid"
+    tolerance = hull_tolerance(hull.panels.points, felt, tolerance)
+    return "direct" if choose_method(hull.point_count, felt, box, tolerance) == "direct" else "grid"
 
 
 class _Oracle:

@@ -21,6 +21,9 @@ from panelsim.errors import PanelsimError
 # newer versions, no emptying of a print buffer at every launch where standard output is captured.
 ENVIRONMENT = {"ENABLE_TAICHI_HEADER_PRINT": "0", "TI_SKIP_VERSION_CHECK": "ON", "TI_ENABLE_PYBUF": "0"}
 
+# Taichi compiles one kernel at a time, and takes another's beginning for a part of the first.
+compiling = threading.RLock()
+
 _program: Any = None  # the Taichi program that was found or made fit for the kernels
 _process = 0  # the process it belongs to
 
@@ -30,7 +33,7 @@ def import_taichi() -> Any:
     """Import Taichi quietly; what the user's environment says about it stands."""
     for name, value in ENVIRONMENT.items():
         os.environ.setdefault(name, value)
-    with interrupts_held_back():
+    with compiling, interrupts_held_back():
         import taichi
 
     return taichi
@@ -69,10 +72,11 @@ def start() -> None:
         )
     if current is not None and current is _program:
         return
-    if current is None:
-        _initialise()
-    _require_exact_arithmetic()
-    _program, _process = impl.get_runtime().prog, os.getpid()
+    with compiling:
+        if impl.get_runtime().prog is None:
+            _initialise()
+        _require_exact_arithmetic()
+        _program, _process = impl.get_runtime().prog, os.getpid()
 
 
 def _initialise() -> None:
@@ -89,15 +93,20 @@ def _initialise() -> None:
 
 
 def _require_exact_arithmetic() -> None:
-    """Raise PanelsimError unless the live runtime is a CPU in double precision without fast-math."""
+    """Raise PanelsimError unless the live runtime computes as the kernels need it."""
     ti = import_taichi()
     config = ti.lang.impl.current_cfg()
-    if config.arch in (ti.x64, ti.arm64) and config.default_fp == ti.f64 and not config.fast_math:
+    if (
+        config.arch in (ti.x64, ti.arm64)
+        and (config.default_fp, config.default_ip) == (ti.f64, ti.i32)
+        and not (config.fast_math or config.debug)
+    ):
         return
     raise PanelsimError(
         "A Taichi runtime with other settings is alive in this process",
-        got=f"arch={config.arch}, default_fp={config.default_fp}, fast_math={config.fast_math}",
-        allowed="arch=cpu, default_fp=f64, fast_math=False",
+        got=f"arch={config.arch}, default_fp={config.default_fp}, default_ip={config.default_ip}, "
+        f"fast_math={config.fast_math}, debug={config.debug}",
+        allowed="arch=cpu, default_fp=f64, default_ip=i32, fast_math=False, debug=False",
         remedy="let panelsim start Taichi first, pass these settings to ti.init, or use another process; "
         "TI_ARCH, TI_DEFAULT_FP and TI_FAST_MATH in the environment must not say otherwise",
     )
@@ -119,7 +128,8 @@ class Launch:
         """Run the kernel; raises PanelsimError as `start` does."""
         start()
         if self._program is not _program:  # at first, or another runtime since
-            self._prepare()
+            with compiling, interrupts_held_back():
+                self._prepare()
         self._program.launch_kernel(self._compiled, self._context)
 
     def _prepare(self) -> None:

@@ -9,22 +9,15 @@ Taichi reads the annotations of this module itself: no `from __future__ import a
 """
 
 from panelsim.kernels import runtime
-from panelsim.kernels.cut_panels import (
-    HEAD,
-    REACH,
-    RESPONSE,
-    SUBMERGENCE,
-    X,
-    Y,
-    Z,
-    correct_cut_panel,
-    is_wet,
-)
+from panelsim.kernels.cut_panels import HEAD, SUBMERGENCE, correct_cut_panels, find_cut_panels
 from panelsim.kernels.exchange import DISPLACEMENT
 from panelsim.kernels.lanes import Lanes
 from panelsim.kernels.tables import LANES
 
 ti = runtime.import_taichi()
+
+# Columns of PanelTables.blocks.
+X, Y, Z, RESPONSE, REACH = 0, 1, 2, 3, 9
 
 
 @ti.func
@@ -78,15 +71,16 @@ def may_matter(
     square of their distance; so much, at most, lies the centre deeper than a corner.
     """
     reach = eight(blocks, k, REACH)
-    answer = ti.cast((height - reach).min() <= crest, ti.i32)
+    answer = 0
+    for lane in ti.static(range(LANES)):  # eight comparisons side by side; a minimum takes them in a row
+        answer |= ti.cast(height[lane] - reach[lane] <= crest, ti.i32)
     if answer == 1 and cuts == 1 and LANES * k >= first_centre:
         answer = 0
         for lane in ti.static(range(LANES)):
-            n = LANES * k + lane - first_centre
-            if n < panels.shape[0]:
-                for c in ti.static(range(4)):
-                    if state[SUBMERGENCE, panels[n, c]] + 0.5 * bend * reach[lane] ** 2 > 0.0:
-                        answer = 1
+            n = ti.min(LANES * k + lane - first_centre, panels.shape[0] - 1)
+            deeper = 0.5 * bend * reach[lane] ** 2
+            for c in ti.static(range(4)):
+                answer |= ti.cast(state[SUBMERGENCE, panels[n, c]] + deeper > 0.0, ti.i32)
     return answer
 
 
@@ -102,6 +96,10 @@ def integrate_heads(
     blocks: ti.template(),
     panels: ti.template(),
     state: ti.template(),
+    cut: ti.template(),
+    room: ti.template(),
+    spans: ti.template(),
+    corners: ti.template(),
     first,
     stop,
     first_centre,
@@ -110,27 +108,29 @@ def integrate_heads(
     wheeler,
     second_order: ti.template(),
 ):
-    """Load (6,) of the heads of all points, over ρ g."""
+    """Load (6,) of the heads of all points, over ρ g; `spans` and `corners` are those of `PanelTables`."""
     lanes = ti.Matrix.zero(ti.f64, 6, LANES)
+    begin, end = panels.shape[0], 0
     for k in range(first, stop):
+        wet = ti.Vector([state[SUBMERGENCE, LANES * k + lane] > 0.0 for lane in ti.static(range(LANES))])
+        wet_count = 0
         for lane in ti.static(range(LANES)):
-            wet_head = 0.0
-            if state[SUBMERGENCE, LANES * k + lane] > 0.0:
-                wet_head = state[HEAD, LANES * k + lane]
-            for i in ti.static(range(6)):
-                lanes[i, lane] += wet_head * blocks[k, RESPONSE + i, lane]
+            wet_count += ti.cast(wet[lane], ti.i32)
+        # Before the first panel of a block with dry points all are wet, behind the last of one with wet, dry.
+        if wet_count < LANES:
+            begin = ti.min(begin, spans[k, 0])
+        if wet_count > 0:
+            end = ti.max(end, spans[k, 1])
+            for lane in ti.static(range(LANES)):
+                head = ti.select(wet[lane], state[HEAD, LANES * k + lane], 0.0)
+                for i in ti.static(range(6)):
+                    lanes[i, lane] += head * blocks[k, RESPONSE + i, lane]
     load = lanes @ Lanes(1.0)
     if cuts == 1:
-        for n in range(panels.shape[0]):
-            wet_points = 0
-            for c in ti.static(range(4)):
-                wet_points += ti.cast(is_wet(state, panels[n, c]), ti.i32)
-            if centres == 1:
-                wet_points += ti.cast(is_wet(state, first_centre + n), ti.i32)
-            if 0 < wet_points < 4 + centres:
-                load += correct_cut_panel(
-                    blocks, state, panels, n, first_centre + n, centres, wheeler, second_order
-                )
+        count = find_cut_panels(state, panels, cut, begin, end, first_centre, centres)
+        load += correct_cut_panels(
+            corners, state, panels, cut, room, count, first_centre, centres, wheeler, second_order
+        )
     return load
 
 

@@ -56,6 +56,25 @@ class PanelTables:
         """Of each rule, points in blocks of eight (P/8, 10, 8): x, y, z, six responses, reach."""
         return {rule: self._blocks_of(response) for rule, response in self.response.items()}
 
+    @cached_property
+    def corners(self) -> FloatArray:
+        """x, y, z of the corners of each panel one after the other (N, 12) [m]."""
+        return _frozen(self.points[self.panels].reshape(-1, 12))
+
+    @cached_property
+    def spans(self) -> NDArray[np.int32]:
+        """Of each block of eight points the first panel that has one of them, and one past the last (P/8, 2).
+
+        Where no panel has any: the number of panels, and 0.
+        """
+        count = len(self.panels)
+        numbers = np.arange(count, dtype=np.int32)
+        spans = np.tile(np.array([count, 0], dtype=np.int32), (len(self.points) // LANES, 1))
+        for points in (*self.panels.T, self.first_centre + numbers):
+            np.minimum.at(spans[:, 0], points // LANES, numbers)
+            np.maximum.at(spans[:, 1], points // LANES, numbers + 1)
+        return _frozen(spans)
+
     def _blocks_of(self, response: FloatArray) -> FloatArray:
         columns = np.column_stack([self.points, response, self.reach])
         return np.ascontiguousarray(columns.reshape(-1, LANES, 10).transpose(0, 2, 1))
@@ -83,6 +102,12 @@ class WaveTables:
     def standard_deviation(self) -> float:
         """Of the elevation of first order [m]."""
         return float(np.sqrt(0.5 * np.sum(self.amplitude**2)))
+
+    def felt(self) -> "WaveTables":
+        """The waves whose energy is above zero, as computers count."""
+        high = self.amplitude**2 > 0.0
+        columns = ("amplitude", "wavenumber_x", "wavenumber_y", "wavenumber", "encounter_frequency", "phase")
+        return replace(self, **{name: getattr(self, name)[high] for name in columns})
 
     def turned(self, angle: float) -> Self:
         """The same waves in axes turned by `angle` [rad] about the vertical; by none, to the bit."""
@@ -203,19 +228,19 @@ def checked_poses(poses: FloatArray) -> FloatArray:
 
 def require_stretching(stretching: str) -> None:
     """Raise PanelsimError unless `stretching` is one of STRETCHINGS."""
-    if stretching not in STRETCHINGS:
+    if not (isinstance(stretching, str) and stretching in STRETCHINGS):
         raise PanelsimError(
             "The stretching of the wave pressure is not known",
-            got=stretching,
+            got=repr(stretching)[:60],
             allowed=", ".join(STRETCHINGS),
         )
 
 
 def require_rule(rule: str) -> None:
     """Raise PanelsimError unless `rule` is one of RULES."""
-    if rule not in RULES:
+    if not (isinstance(rule, str) and rule in RULES):
         raise PanelsimError(
-            "The rule of the pressure integral is not known", got=rule, allowed=", ".join(RULES)
+            "The rule of the pressure integral is not known", got=repr(rule)[:60], allowed=", ".join(RULES)
         )
 
 

@@ -60,6 +60,7 @@ from panelsim.kernels.tables import LANES, WaveTables
     BLOCKS,
 ) = range(27)
 HEAD = 32
+MOST_ROWS = 1 << 24  # of tables that a kernel can tell apart; a power of two
 # Columns of WaveGrid.components; phases in turns, decay in powers of two, gain 1/transfer.
 AMPLITUDE, KX, KY, DECAY, FREQUENCY, LEAD, GAIN = range(7)
 COMPONENT_COLUMNS = 7

@@ -55,7 +55,8 @@ def wave_sums(
     if quantities:
         cosine[:, :quantities], sine[:, :quantities] = coefficients.real, coefficients.imag
     only_cosines = quantities == 1 and not sine.any()  # as pressure is
-    _sum_waves(blocks, _columns(waves), cosine, sine, out, stretching == "wheeler", only_cosines)
+    with runtime.compiling, runtime.interrupts_held_back():
+        _sum_waves(blocks, _columns(waves), cosine, sine, out, stretching == "wheeler", only_cosines)
     results = out.transpose(0, 2, 1).reshape(-1, SUMS + MOST_QUANTITIES)[: len(points)]
     return results[:, ELEVATION].copy(), results[:, SUMS : SUMS + quantities].copy()
 

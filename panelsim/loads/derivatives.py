@@ -4,8 +4,9 @@ import numpy as np
 
 from panelsim.conventions import CUT_RULES, FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.loads.arguments import instant_arguments
 from panelsim.loads.load import Instant
-from panelsim.loads.wetted_surface import WettedSurface
+from panelsim.loads.wetted_surface import WettedSurface, method_of_one_call
 from panelsim.seaway.seaways import CalmSeaway, Seaway
 from panelsim.ship.ship import Ship
 
@@ -28,7 +29,7 @@ def pressure_stiffness(
     *,
     speed: float = 0.0,
     stretching: str = "wheeler",
-    method: str = "direct",
+    method: str = "auto",
     rule: str = "vertex+centre",
 ) -> FloatArray:
     """Stiffness −∂F/∂η (6, 6) of buoyancy and wave load, row a load, column a motion [N/m, N, N m].
@@ -41,13 +42,13 @@ def pressure_stiffness(
     By differences, of which half steps cancel the kink that the load has where panels end at the water:
     there the flare, and so the stiffness, differs from one side to the other, and this is the mean of both.
     Raises PanelsimError for values that are no such numbers, angles beyond a turn, unknown names, and the
-    rule "panel", whose load jumps and has no derivative.
+    rule "panel", whose load jumps and has no derivative. The waves are summed directly: the small steps would
+    show what a grid is off.
     """
-    at = _checked_displacement(displacement)
-    for name, value in (("time", time), ("speed", speed)):
-        if not np.isfinite(value):
-            raise PanelsimError(f"The {name} is not a finite number", got=value)
-    if rule not in CUT_RULES:
+    at = instant_arguments(ship, seaway, time, displacement, speed)
+    if method == "grid":
+        raise PanelsimError("A grid gives no derivative", got=repr(method), allowed="auto | direct | oracle")
+    if rule == "panel":
         raise PanelsimError(
             "This rule of the pressure integral gives no derivative", got=rule, allowed=", ".join(CUT_RULES)
         )
@@ -55,25 +56,13 @@ def pressure_stiffness(
     moved = (at + SIDES[:, None, None] * np.diag(step)).reshape(-1, 6)
     count = len(moved)
     wetted = WettedSurface(
-        ship, [seaway.components] * count, [speed] * count, stretching=stretching, method=method, rule=rule
+        ship,
+        [seaway.components] * count,
+        [speed] * count,
+        stretching=stretching,
+        method=method_of_one_call(method),
+        rule=rule,
     )
     load = wetted.evaluate(Instant(time, 1.0, moved, np.zeros_like(moved))).reshape(len(SIDES), 6, 6)
     slope: FloatArray = np.einsum("s,sml->lm", WEIGHTS, load) / step
     return -slope
-
-
-def _checked_displacement(displacement: FloatArray | tuple[float, ...]) -> FloatArray:
-    try:
-        at = np.asarray(displacement, dtype=float)
-    except (TypeError, ValueError):
-        at = np.empty(0)
-    if at.shape != (6,) or not np.isfinite(at).all():
-        raise PanelsimError("The displacement is not six finite numbers", got=displacement)
-    if np.abs(at[3:]).max() > 2.0 * np.pi:
-        raise PanelsimError(
-            "The displacement turns the ship by more than a whole turn",
-            got=f"roll, pitch, yaw = {at[3:].tolist()} rad",
-            allowed="at most 2π rad",
-            remedy="give angles in rad, not in degrees",
-        )
-    return at

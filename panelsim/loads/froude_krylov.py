@@ -4,6 +4,7 @@ import numpy as np
 
 from panelsim.conventions import ComplexArray, FloatArray, IntArray, corner_shares, panel_centres
 from panelsim.kernels.tables import bend_shares
+from panelsim.kernels.wet_part import SPLITS
 from panelsim.seaway.components import WaveComponents
 from panelsim.ship.ship import Ship
 
@@ -16,7 +17,6 @@ WET_PARTS = np.array(
         [[0, 0], [1, 1], [2, 2], [2, 2]],
     ]
 )
-SPLITS = ([0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3])  # of four corners into triangles, both ways
 
 
 def froude_krylov_transfer(ship: Ship, components: WaveComponents) -> ComplexArray:

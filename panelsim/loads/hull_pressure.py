@@ -9,9 +9,11 @@ from panelsim.conventions import FloatArray, panel_triangles
 from panelsim.errors import PanelsimError
 from panelsim.kernels.runtime import interrupts_held_back
 from panelsim.kernels.section_loads import section_loads
-from panelsim.kernels.tables import PanelTables, panel_tables, wave_tables
+from panelsim.kernels.tables import PanelTables, panel_tables
 from panelsim.kernels.waterline import waterlines
 from panelsim.kernels.wet_part import WetPart, area_vectors, wet_part
+from panelsim.loads.arguments import instant_arguments
+from panelsim.loads.wetted_surface import component_tables, method_of_one_call
 from panelsim.seaway.seaways import Seaway
 from panelsim.ship.ship import Ship
 
@@ -71,11 +73,12 @@ def hull_pressure(
 
     Buoyancy and incident waves together, TM 2003-190 (10) and section 2.6, as in `pressure_force`, whose
     arguments these are: `time` [s], `displacement` (6,) in translating earth axes [m, rad], `speed` [m/s];
-    `method` and `rule` as in `WettedSurface`. Raises PanelsimError for a displacement that is not six finite
-    numbers or has angles of more than a turn, a time or speed that is not finite, and unknown names.
+    `method` and `rule` as there. Raises PanelsimError for arguments of another kind, angles of more than a
+    turn and unknown names.
     """
-    pose = _checked_pose(time, displacement, speed)
+    pose = np.concatenate([[time, 1.0], instant_arguments(ship, seaway, time, displacement, speed)])
     panels = panel_tables(ship.vertices, ship.mesh.panels)
+    method = method_of_one_call(method)
     submergence, pressure, to_cut = _at_points(
         panels, ship, seaway, pose, speed=speed, stretching=stretching, method=method, rule=rule
     )
@@ -104,18 +107,9 @@ def _at_points(
     """Depth below the surface [m], pressure and pressure to interpolate to a cut [Pa] at the points (P,)."""
     with interrupts_held_back():  # Taichi is imported here
         from panelsim.kernels.pressure import PressureIntegral
-    sea = seaway.components
-    waves = wave_tables(
-        sea.amplitude,
-        sea.wavenumber(ship.gravity),
-        sea.wave_heading,
-        sea.encounter_frequency(speed, ship.gravity),
-        sea.phase,
-        second_order=sea.second_order,
-    )
     integral = PressureIntegral(
         panels,
-        [waves],
+        [component_tables(seaway.components, speed, ship.gravity)],
         waterline=ship.waterline,
         water_density=ship.water_density,
         gravity=ship.gravity,
@@ -146,29 +140,6 @@ def _by_panel(ship: Ship, wet: WetPart, waterline: tuple[FloatArray, ...]) -> Hu
     )
 
 
-def _checked_pose(time: float, displacement: ArrayLike, speed: float) -> FloatArray:
-    """The pose (8,) that the tables are read with: time, wave factor 1, displacement."""
-    try:
-        moved = np.asarray(displacement, dtype=float)
-        instant = np.array([time, speed], dtype=float)
-    except (TypeError, ValueError):
-        raise PanelsimError(
-            "Time, displacement and speed are not numbers", got=(time, displacement, speed)
-        ) from None
-    if moved.shape != (6,) or not np.isfinite(moved).all():
-        raise PanelsimError("The displacement is not six finite numbers", got=displacement)
-    if instant.shape != (2,) or not np.isfinite(instant).all():
-        raise PanelsimError("Time or speed is not a finite number", got=f"time {time}, speed {speed}")
-    if (np.abs(moved[3:]) > 2.0 * np.pi).any():
-        raise PanelsimError(
-            "An angle of the displacement is more than a full turn",
-            got=f"roll, pitch, yaw = {moved[3:].tolist()} rad",
-            allowed="-2π to 2π",
-            remedy="angles are in rad: np.radians(25.0) for 25 degrees",
-        )
-    return np.concatenate([[instant[0], 1.0], moved])
-
-
 def _checked_stations(stations: ArrayLike) -> FloatArray:
     try:
         x = np.asarray(stations, dtype=float)
@@ -177,7 +148,7 @@ def _checked_stations(stations: ArrayLike) -> FloatArray:
     if x.ndim != 1 or len(x) < 2 or not np.isfinite(x).all() or (np.diff(x) <= 0.0).any():
         raise PanelsimError(
             "The stations do not bound sections",
-            got=x.tolist(),
+            got=repr(x.tolist())[:200],
             allowed="two or more finite x in ship axes [m], each larger than the one before",
         )
     return x

@@ -1,5 +1,7 @@
 """Wave loads that are linear in the waves: a complex amplitude for every component, summed in time."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from panelsim.conventions import ComplexArray, FloatArray
@@ -8,10 +10,11 @@ from panelsim.seaway.components import WaveComponents
 
 
 class LinearWaveLoad:
-    """F(t) = Re Σ a X exp(i(ω_e t + ε)), the load on the ship upright on its mean course.
+    """F(t) = Re Σ a X exp(i(ω_e t + ε)), the load on each ship of a batch upright on its mean course.
 
-    `transfer` X (M, 6) is the load per unit wave amplitude with the time factor exp(+iω_e t),
-    its phase referred to a crest at the centre of gravity; ω_e keeps its sign.
+    One of `transfers`, `components` and `speeds` [m/s] for each ship. A transfer X (M, 6) is the load
+    per unit wave amplitude with the time factor exp(+iω_e t), its phase referred to a crest at the centre
+    of gravity; ω_e keeps its sign.
 
     With `follows_ship` the phase is that of the waves where the ship is, exp(−i k(η1 cos β − η2 sin β)):
     beside a nonlinear load, which meets the waves there, a phase at the moving origin would be that
@@ -21,24 +24,46 @@ class LinearWaveLoad:
     def __init__(
         self,
         name: str,
-        transfer: ComplexArray,
-        components: WaveComponents,
+        transfers: Sequence[ComplexArray],
+        components: Sequence[WaveComponents],
+        speeds: Sequence[float],
         *,
-        speed: float,
         gravity: float,
         follows_ship: bool,
     ) -> None:
         self.name = name
-        encounter = components.encounter_frequency(speed, gravity)
-        k = components.wavenumber(gravity) * follows_ship
-        beta = components.wave_heading
-        # Columns that turn time, surge and sway into the phase of each component.
-        self._turning = 1j * np.column_stack([encounter, -k * np.cos(beta), k * np.sin(beta)])
-        amplitude = components.amplitude * np.exp(1j * components.phase)
-        self._amplitude = np.ascontiguousarray((transfer * amplitude[:, None]).T)
+        ships = [
+            _wave_columns(*ship, gravity=gravity, follows_ship=follows_ship)
+            for ship in zip(transfers, components, speeds, strict=True)
+        ]
+        # The waves of all ships in one row, so that seas of unequal length need no filling up.
+        counts = [len(turning[0]) for turning, _ in ships]
+        self._ship = np.repeat(np.arange(len(ships)), counts)
+        self._first_wave = np.cumsum([0, *counts[:-1]])
+        self._encounter, self._with_surge, self._with_sway = np.hstack([turning for turning, _ in ships])
+        amplitude = np.hstack([amplitude for _, amplitude in ships])
+        self._in_phase, self._ahead = amplitude.real.copy(), amplitude.imag.copy()
 
     def evaluate(self, instant: Instant) -> FloatArray:
-        """Load (6,) in translating earth axes."""
-        surge, sway = instant.displacement[:2]
-        rotating = np.exp(self._turning @ np.array([instant.time, surge, sway]))
-        return instant.wave_factor * (self._amplitude @ rotating).real
+        """Load (B, 6) in translating earth axes."""
+        surge, sway = instant.displacement.T[:2]
+        phase = (
+            self._encounter * instant.time
+            + self._with_surge * surge[self._ship]
+            + self._with_sway * sway[self._ship]
+        )
+        waves = self._in_phase * np.cos(phase) - self._ahead * np.sin(phase)
+        return instant.wave_factor * np.add.reduceat(waves, self._first_wave, axis=1).T
+
+
+def _wave_columns(
+    transfer: ComplexArray, components: WaveComponents, speed: float, *, gravity: float, follows_ship: bool
+) -> tuple[FloatArray, ComplexArray]:
+    """What time, surge and sway add to the phase of each wave (3, M), and the load amplitudes (6, M)."""
+    if not components.count:  # calm water has one wave without a load, since a sum must have a term
+        return np.zeros((3, 1)), np.zeros((6, 1), dtype=complex)
+    k = components.wavenumber(gravity) * follows_ship
+    beta = components.wave_heading
+    encounter = components.encounter_frequency(speed, gravity)
+    turning = np.array([encounter, -k * np.cos(beta), k * np.sin(beta)])
+    return turning, (transfer * (components.amplitude * np.exp(1j * components.phase))[:, None]).T

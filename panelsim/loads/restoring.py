@@ -1,7 +1,7 @@
 """Linear hydrostatic restoring."""
 
 from panelsim.conventions import FloatArray
-from panelsim.loads.load import Instant
+from panelsim.loads.load import Instant, times_each
 
 
 class Restoring:
@@ -10,8 +10,8 @@ class Restoring:
     name = "restoring"
 
     def __init__(self, stiffness: FloatArray) -> None:
-        self._stiffness = stiffness
+        self._negative_stiffness = -stiffness
 
     def evaluate(self, instant: Instant) -> FloatArray:
-        """Load (6,) in translating earth axes."""
-        return -self._stiffness @ instant.displacement
+        """Load (B, 6) in translating earth axes."""
+        return times_each(self._negative_stiffness, instant.displacement)

@@ -60,7 +60,7 @@ class Supplementary:
         return np.diag(self._damping)
 
     def evaluate(self, instant: Instant) -> FloatArray:
-        """−C_s η − B_s η̇ (6,)."""
+        """−C_s η − B_s η̇ (B, 6)."""
         return -self._stiffness * instant.displacement - self._damping * instant.velocity
 
 

@@ -12,9 +12,10 @@ class Weight:
     name = "weight"
 
     def __init__(self, mass: float, gravity: float) -> None:
-        self._load = np.zeros(6)
-        self._load[Dof.HEAVE] = -mass * gravity
+        self._weight = mass * gravity
 
     def evaluate(self, instant: Instant) -> FloatArray:
-        """The same (6,) at every instant."""
-        return self._load
+        """The same (6,) for each ship (B, 6) at every instant."""
+        load = np.zeros_like(instant.displacement)
+        load[:, Dof.HEAVE] = -self._weight
+        return load

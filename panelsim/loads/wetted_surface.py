@@ -5,9 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from panelsim.conventions import FloatArray, load_to_earth
-from panelsim.errors import PanelsimError
 from panelsim.kernels.runtime import interrupts_held_back
-from panelsim.kernels.tables import panel_tables, wave_tables
+from panelsim.kernels.tables import WaveTables, panel_tables, wave_tables
+from panelsim.loads.arguments import instant_arguments
 from panelsim.loads.load import Instant
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.seaways import Seaway
@@ -44,17 +44,7 @@ class WettedSurface:
             from panelsim.kernels.pressure import PressureIntegral
         self._integral = PressureIntegral(
             panel_tables(ship.vertices, ship.mesh.panels),
-            [
-                wave_tables(
-                    sea.amplitude,
-                    sea.wavenumber(ship.gravity),
-                    sea.wave_heading,
-                    sea.encounter_frequency(u, ship.gravity),
-                    sea.phase,
-                    second_order=sea.second_order,
-                )
-                for sea, u in zip(components, speed, strict=True)
-            ],
+            [component_tables(sea, u, ship.gravity) for sea, u in zip(components, speed, strict=True)],
             waterline=ship.waterline,
             water_density=ship.water_density,
             gravity=ship.gravity,
@@ -62,7 +52,6 @@ class WettedSurface:
             rule=rule,
             method=method,
         )
-        self._poses = np.empty((len(components), 8))
 
     @property
     def methods(self) -> tuple[str, ...]:
@@ -71,7 +60,7 @@ class WettedSurface:
 
     def in_ship_axes(self, instant: Instant) -> FloatArray:
         """Force and moment (B, 6) about the CG in ship axes [N, N m]."""
-        poses = self._poses
+        poses = np.empty((len(instant.displacement), 8))
         poses[:, 0] = instant.time
         poses[:, 1] = instant.wave_factor
         poses[:, 2:] = instant.displacement
@@ -80,6 +69,18 @@ class WettedSurface:
     def evaluate(self, instant: Instant) -> FloatArray:
         """Load (B, 6) in translating earth axes, moments conjugate to the yaw-pitch-roll angles."""
         return load_to_earth(self.in_ship_axes(instant), instant.displacement)
+
+
+def component_tables(sea: WaveComponents, speed: float, gravity: float) -> WaveTables:
+    """The components of a sea as a ship at `speed` [m/s] meets them, for the kernels."""
+    return wave_tables(
+        sea.amplitude,
+        sea.wavenumber(gravity),
+        sea.wave_heading,
+        sea.encounter_frequency(speed, gravity),
+        sea.phase,
+        second_order=sea.second_order,
+    )
 
 
 def pressure_force(
@@ -96,11 +97,25 @@ def pressure_force(
     """Incident-wave and buoyancy force and moment (6,) about the CG, in ship axes [N, N m].
 
     `time` [s], `displacement` (6,) of the ship in translating earth axes [m, rad], `speed` [m/s].
-    `method` and `rule` as in `WettedSurface`.
-    Raises PanelsimError for a displacement that is not six finite numbers and for unknown names.
+    `method`: "direct" sums the waves at every point of the hull, "grid" takes them from a grid that moves
+    with the ship, "oracle" is the slow NumPy twin; "auto" is "direct" here, because a grid pays for many
+    calls only. `rule`: pressure at the corners of the panels, "vertex", at their centres as well,
+    "vertex+centre", or of whole panels at the centre, "panel". Hull and waves are made ready in every call;
+    where there are many, a `WettedSurface` does so once. Raises PanelsimError for arguments of another kind,
+    angles of more than a turn and unknown names.
     """
-    displacement = np.asarray(displacement, dtype=float)
-    if displacement.shape != (6,) or not np.isfinite(displacement).all():
-        raise PanelsimError("The displacement is not six finite numbers", got=displacement)
-    load = WettedSurface(ship, [seaway.components], [speed], stretching=stretching, method=method, rule=rule)
-    return load.in_ship_axes(Instant(time, 1.0, displacement[None], np.zeros((1, 6))))[0]
+    at = instant_arguments(ship, seaway, time, displacement, speed)
+    load = WettedSurface(
+        ship,
+        [seaway.components],
+        [speed],
+        stretching=stretching,
+        method=method_of_one_call(method),
+        rule=rule,
+    )
+    return load.in_ship_axes(Instant(time, 1.0, at[None], np.zeros((1, 6))))[0]
+
+
+def method_of_one_call(method: str) -> str:
+    """A grid costs more to set up than a single call can save."""
+    return "direct" if method == "auto" else method

@@ -86,6 +86,8 @@ class History:
         ramp: float,
         time_step: float,
         model: str,
+        pressure_method: str = "none",
+        pressure_rule: str = "none",
         outcome: str,
         outcome_detail: str = "",
         case: str = "{}",
@@ -98,8 +100,9 @@ class History:
 
         `time` (T,) [s] from the start of the ramp; motions and each of `loads` (T, 6) in translating
         earth axes, m and rad, N and N m; `wave_elevation` (T,) [m] at the moving origin; `ship` and
-        `components` as the run had them; `speed` [m/s]; `ramp` and `time_step` [s]; `case` JSON text;
-        `cpu_seconds` of the time loop alone, compilation apart in `jit_seconds`; `notes` are sentences
+        `components` as the run had them; `pressure_method`, `pressure_rule` of the nonlinear load; `speed`
+        [m/s]; `ramp` and `time_step` [s]; `case` JSON text; `cpu_seconds` of the time loop alone,
+        compilation apart in `jit_seconds`; `notes` are sentences
         that a reader of the report should see.
         Raises PanelsimError for an unknown outcome and for arrays that do not fit together.
         """
@@ -113,6 +116,8 @@ class History:
             "outcome": outcome,
             "outcome_detail": outcome_detail,
             "model": model,
+            "pressure_method": pressure_method,
+            "pressure_rule": pressure_rule,
             "speed": float(speed),
             "ramp": float(ramp),
             "time_step": float(time_step),

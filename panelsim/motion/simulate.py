@@ -1,33 +1,30 @@
-"""A run: from a ship and a sea to a history."""
+"""A run, or a batch of runs: from a ship and a sea to a history."""
 
-import json
-import math
-import time as clock
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from panelsim.conventions import FloatArray
 from panelsim.hydro.database import HydroDatabase
-from panelsim.hydro.diffraction import diffraction_load
-from panelsim.loads.froude_krylov import froude_krylov_transfer
-from panelsim.loads.linear_waves import LinearWaveLoad
-from panelsim.loads.load import Instant, Load
-from panelsim.loads.radiation import Radiation
-from panelsim.loads.restoring import Restoring
+from panelsim.loads.arguments import require_seaway
 from panelsim.loads.supplementary import Supplementary
-from panelsim.loads.weight import Weight
-from panelsim.loads.wetted_surface import WettedSurface
-from panelsim.motion.equations import EquationsOfMotion
+from panelsim.motion.batch import Batch, Member
 from panelsim.motion.history import History
-from panelsim.motion.march import Limits, Progress, march, ramp_factor
-from panelsim.motion.notes import run_notes
-from panelsim.motion.requirements import require_run, require_time_step, require_types, six_numbers
-from panelsim.seaway.components import WaveComponents
+from panelsim.motion.march import Progress
+from panelsim.motion.requirements import (
+    about_member,
+    case_text,
+    is_iterable,
+    require_run,
+    require_seed,
+    require_speed,
+    require_types,
+    sequence_of,
+    six_numbers_each,
+)
 from panelsim.seaway.seaways import Seaway
-from panelsim.seaway.translating import TranslatingSeaway
 from panelsim.ship.ship import Ship
 
 
@@ -42,6 +39,8 @@ def simulate(
     model: str = "nonlinear",
     ramp: float = 60.0,
     stretching: str = "wheeler",
+    pressure_method: str = "auto",
+    pressure_rule: str = "vertex+centre",
     supplementary: Supplementary | None = None,
     initial_displacement: Sequence[float] | FloatArray = (0.0,) * 6,
     initial_velocity: Sequence[float] | FloatArray = (0.0,) * 6,
@@ -56,7 +55,9 @@ def simulate(
     `speed` [m/s]; `duration` [s] after a `ramp` [s] over which the waves grow by ½(1 − cos(π t/ramp));
     `time_step` [s]; `model` "nonlinear" integrates the pressure over the instantaneous wetted
     surface, "linear" takes restoring and Froude-Krylov load about rest; radiation and diffraction are
-    linear in both. The ship is held at `initial_displacement` (6,) [m, rad] until t = 0.
+    linear in both. `pressure_method` and `pressure_rule` are `method` and `rule` of `pressure_force`: how the
+    waves are summed over the wetted surface, and where on a panel. The ship is held at
+    `initial_displacement` (6,) [m, rad] until t = 0.
 
     The run ends early where |roll| exceeds `capsize_angle` [rad] (0 = never), where the motion
     diverges, or on an interrupt; `History.outcome` says which. `progress(done, total)` is told the
@@ -64,130 +65,114 @@ def simulate(
 
     Raises PanelsimError for bad arguments and for a database of another ship.
     """
-    require_types(ship, database, supplementary, notes)
+    (history,) = simulate_batch(
+        ship,
+        [seaway],
+        speed=[speed],
+        duration=duration,
+        time_step=time_step,
+        database=database,
+        model=model,
+        ramp=ramp,
+        stretching=stretching,
+        pressure_method=pressure_method,
+        pressure_rule=pressure_rule,
+        supplementary=supplementary,
+        initial_displacement=[initial_displacement],
+        initial_velocity=[initial_velocity],
+        capsize_angle=capsize_angle,
+        progress=progress,
+        case=case,
+        seeds=[seed],
+        notes=notes,
+    )
+    return history
+
+
+def simulate_batch(
+    ship: Ship,
+    seaways: Sequence[Seaway],
+    *,
+    speed: float | Sequence[float] | FloatArray,
+    duration: float,
+    time_step: float,
+    database: HydroDatabase,
+    model: str = "nonlinear",
+    ramp: float = 60.0,
+    stretching: str = "wheeler",
+    pressure_method: str = "auto",
+    pressure_rule: str = "vertex+centre",
+    supplementary: Supplementary | None = None,
+    initial_displacement: ArrayLike | Sequence[ArrayLike] = (0.0,) * 6,
+    initial_velocity: ArrayLike | Sequence[ArrayLike] = (0.0,) * 6,
+    capsize_angle: float = np.pi / 2,
+    progress: Progress | None = None,
+    case: Mapping[str, Any] | None = None,
+    seeds: Sequence[int | None] | None = None,
+    notes: Sequence[str] = (),
+) -> tuple[History, ...]:
+    """Run the ship through many seas at once, and keep every motion and every load of each run.
+
+    Each history is that of `simulate` in the same sea, bit for bit; together they take less time. The seas
+    may differ in all: kind, phases, heading, number of waves. Arguments as for `simulate`, but that `speed`
+    [m/s] may be one for each seaway, `initial_displacement` and `initial_velocity` may be (6,) or (B, 6), and
+    `seeds` has one for each seaway. A run that ends early leaves the others as they are; an interrupt ends
+    all, and all are kept. `cpu_seconds` and `jit_seconds` of a history are a share of those of the batch:
+    of the time loop by the steps of the run, of compilation and set-up an equal one.
+
+    Raises PanelsimError for bad arguments, with the number of the member, and for a database of another ship.
+    """
+    require_types(ship, database, supplementary, notes, progress)
+    kept_case = case_text(case)
+    members = _members(seaways, speed, seeds)
     require_run(
-        speed=speed,
+        members=len(members),
         duration=duration,
         time_step=time_step,
         ramp=ramp,
         capsize_angle=capsize_angle,
         model=model,
         stretching=stretching,
+        pressure_method=pressure_method,
+        pressure_rule=pressure_rule,
     )
     database.require_for(ship)
     start = (
-        six_numbers("initial_displacement", initial_displacement),
-        six_numbers("initial_velocity", initial_velocity),
+        six_numbers_each("initial_displacement", initial_displacement, len(members), angles=True),
+        six_numbers_each("initial_velocity", initial_velocity, len(members), angles=False),
     )
-    components = seaway.components
-    before = clock.process_time()
-    loads = _pressure_loads(ship, components, speed, model, stretching)
-    loads.append(_diffraction(ship, components, speed, database, follows_ship=model == "nonlinear"))
-    supplementary = Supplementary() if supplementary is None else supplementary
-    loads.append(supplementary)
-    radiation = Radiation(database, speed, time_step)
-    require_time_step(
-        time_step,
-        ship.inertia + radiation.added_mass_infinite,
-        ship.hydrostatics.stiffness + supplementary.stiffness_matrix,
-        components,
-        components.encounter_frequency(speed, ship.gravity),
-    )
-    equations = EquationsOfMotion(ship.inertia, loads, radiation)
-    # The first evaluation compiles the kernel; its time is no part of the time loop.
-    for load in loads:
-        load.evaluate(Instant(0.0, 0.0, *start))
-    compiled = clock.process_time()
-    record = march(
-        equations,
-        *start,
-        # Whole steps that cover all of it; rounding of the quotient is no step.
-        steps=math.ceil((ramp + duration) / time_step - 1e-9),
-        time_step=time_step,
-        ramp=ramp,
-        limits=Limits(capsize_angle, heave=0.5 * ship.length, drift=100.0 * ship.length),
-        progress=progress,
-    )
-    loop = clock.process_time() - compiled
-    time = np.arange(record.count, dtype=np.float64) * time_step
-    # The twin whatever the length, so that a run is bit for bit the beginning of a longer one.
-    sea = TranslatingSeaway(components, speed, ship.gravity, method="oracle")
-    displacement, velocity, acceleration = record.motions
-    return History.build(
-        time=time,
-        displacement=displacement,
-        velocity=velocity,
-        acceleration=acceleration,
-        wave_elevation=_wave_elevation(sea, time, np.array([ramp_factor(t, ramp) for t in time])),
-        loads=record.loads,
+    batch = Batch(
         ship=ship,
-        components=components,
-        seaway_kind=seaway.kind,
-        stretching=stretching,
-        speed=speed,
-        ramp=ramp,
+        members=members,
+        database=database,
+        supplementary=Supplementary() if supplementary is None else supplementary,
+        duration=duration,
         time_step=time_step,
+        ramp=ramp,
         model=model,
-        outcome=record.outcome,
-        outcome_detail=record.detail,
-        case=json.dumps(case or {}, ensure_ascii=False, sort_keys=True),
-        seed=seed,
-        cpu_seconds=loop,
-        jit_seconds=compiled - before,
-        notes=[
-            *notes,
-            *run_notes(
-                components,
-                database,
-                supplementary,
-                speed=speed,
-                time_step=time_step,
-                length=ramp + duration,
-                model=model,
-                seeded=seaway.kind in ("random", "dataset"),
-            ),
-        ],
+        stretching=stretching,
+        pressure_method=pressure_method,
+        pressure_rule=pressure_rule,
+        capsize_angle=capsize_angle,
+        case=kept_case,
+        notes=notes,
     )
+    return batch.run(*start, progress)
 
 
-def _wave_elevation(sea: TranslatingSeaway, time: FloatArray, wave_factor: FloatArray) -> FloatArray:
-    """Elevation (T,) [m] at the moving origin, all amplitudes times `wave_factor` (T,).
-
-    The second order of a Stokes wave, ½ a² k cos 2θ, grows with the square of the factor.
-    """
-    elevation = sea.elevation(0.0, 0.0, time)
-    if not sea.components.second_order:
-        return wave_factor * elevation
-    linear = replace(sea, components=replace(sea.components, second_order=False))
-    first_order = linear.elevation(0.0, 0.0, time)
-    return wave_factor * first_order + wave_factor**2 * (elevation - first_order)
-
-
-def _pressure_loads(
-    ship: Ship, components: WaveComponents, speed: float, model: str, stretching: str
-) -> list[Load]:
-    if model == "nonlinear":
-        wetted = WettedSurface(ship, components, speed, stretching=stretching)
-        return [Weight(ship.mass, ship.gravity), wetted]
-    incident = LinearWaveLoad(
-        "froude_krylov",
-        froude_krylov_transfer(ship, components),
-        components,
-        speed=speed,
-        gravity=ship.gravity,
-        follows_ship=False,
+def _members(seaways: object, speed: object, seeds: object) -> list[Member]:
+    """Checked seaways with their speeds [m/s] and seeds."""
+    seas = sequence_of("seaways", seaways)
+    count = len(seas)
+    speeds = sequence_of(
+        "speeds", speed if is_iterable(speed) and not isinstance(speed, str) else [speed] * count, count
     )
-    return [Restoring(ship.hydrostatics.stiffness), incident]
-
-
-def _diffraction(
-    ship: Ship, components: WaveComponents, speed: float, database: HydroDatabase, *, follows_ship: bool
-) -> LinearWaveLoad:
-    return LinearWaveLoad(
-        "diffraction",
-        diffraction_load(database, components.frequency, components.wave_heading, speed),
-        components,
-        speed=speed,
-        gravity=ship.gravity,
-        follows_ship=follows_ship,
-    )
+    listed_seeds = sequence_of("seeds", [None] * count if seeds is None else seeds, count)
+    members = []
+    for i, (sea, own_speed, seed) in enumerate(zip(seas, speeds, listed_seeds, strict=True)):
+        with about_member(i, count):
+            require_seaway(sea)
+            require_speed(own_speed)
+            require_seed(seed)
+        members.append(Member(sea.components, sea.kind, float(own_speed), seed))
+    return members

@@ -5,8 +5,8 @@ from typing import Any
 
 from panelsim.conventions import FloatArray
 
-# rates(fraction, displacement, velocity): the acceleration (6,) at a fraction (0, ½, 1) of the coming
-# step, first of what it returns.
+# rates(fraction, displacement, velocity): the accelerations (B, 6) at a fraction (0, ½, 1) of the
+# coming step, first of what it returns.
 Rates = Callable[[float, FloatArray, FloatArray], tuple[FloatArray, Any]]
 
 
@@ -15,8 +15,8 @@ def rk4_step(
 ) -> tuple[FloatArray, FloatArray]:
     """One step of the classical fourth-order Runge-Kutta scheme for η̈ = f(t, η, η̇).
 
-    `first` is the acceleration (6,) at the start of the step, which the caller has recorded already.
-    Returns displacement and velocity (6,) at its end.
+    `first` is the acceleration (B, 6) at the start of the step, which the caller has recorded already.
+    Returns displacement and velocity (B, 6) at its end.
     """
     half = 0.5 * time_step
     v2 = velocity + half * first

@@ -1,5 +1,6 @@
 """The folder that a run writes to: empty, or allowed to be written over."""
 
+import contextlib
 import os
 from pathlib import Path
 
@@ -37,3 +38,9 @@ def make_output_folder(folder: Path) -> None:
             got=f"{folder} ({error.strerror})",
             remedy="choose another place",
         ) from error
+
+
+def remove_if_empty(folder: Path) -> None:
+    """Take an output folder away again that nothing has been written to."""
+    with contextlib.suppress(OSError):
+        folder.rmdir()

@@ -15,7 +15,7 @@ from panelsim.motion.history import History
 from panelsim.motion.march import Progress as RunProgress
 from panelsim.motion.simulate import simulate
 from panelsim.results.statistics import Statistics, statistics
-from panelsim.studies.output_folder import make_output_folder, refuse_occupied_folder
+from panelsim.studies.output_folder import make_output_folder, refuse_occupied_folder, remove_if_empty
 from panelsim.view.recording import record
 from panelsim.view.report import PICTURES, report
 
@@ -53,15 +53,30 @@ def run_case(
     refuse_occupied_folder(folder, force=force)
     seconds: dict[str, float] = {}
     with _timed(seconds, "ship and waves"):
-        ship, seaway, supplementary = case.ship, case.seaway, case.supplementary
+        _ = case.ship, case.seaway, case.supplementary  # whatever is wrong with them comes first
     make_output_folder(folder)
+    try:
+        return _run_into(folder, case, seconds, on_coefficients, on_run)
+    except BaseException:
+        remove_if_empty(folder)
+        raise
+
+
+def _run_into(
+    folder: Path,
+    case: Case,
+    seconds: dict[str, float],
+    on_coefficients: CoefficientProgress | None,
+    on_run: RunProgress | None,
+) -> RunOutput:
+    """Compute, simulate and write; `seconds` gets the time of each stage."""
     with _timed(seconds, "coefficients"):
         database = case.database(on_coefficients)
     run = case.file.run
     with _timed(seconds, "run"):
         history = simulate(
-            ship,
-            seaway,
+            case.ship,
+            case.seaway,
             speed=case.speed,
             duration=run.duration,
             time_step=run.time_step,
@@ -69,7 +84,9 @@ def run_case(
             model=run.model,
             ramp=run.ramp,
             stretching=case.file.seaway.stretching,
-            supplementary=supplementary,
+            pressure_method=run.pressure_method,
+            pressure_rule=run.pressure_rule,
+            supplementary=case.supplementary,
             capsize_angle=float(np.deg2rad(run.capsize_angle_deg)),
             progress=on_run,
             case=case.resolved(),

@@ -104,11 +104,20 @@ def _facts(history: History) -> dict[str, str]:
         "wave heading": _heading(history),
         "speed": f"{attrs['speed']:.3f} m/s ({attrs['speed'] / KNOT:.2f} knots)",
         "model": str(attrs["model"]),
+        "pressure on the hull": _pressure(history),
         "simulated": f"{attrs['simulated_seconds']:g} s, of it {attrs['ramp']:g} s of ramp",
         "time step": f"{attrs['time_step']:g} s",
         "seed": str(attrs.get("seed", "none")),
         "panelsim": str(attrs["panelsim_version"]),
     }
+
+
+def _pressure(history: History) -> str:
+    """How the nonlinear load was found; histories of older versions do not say."""
+    method, rule = (history.attrs.get(f"pressure_{name}", "none") for name in ("method", "rule"))
+    if method == "none":
+        return "that of the hull at rest" if history.attrs["model"] == "linear" else "not recorded"
+    return f"method {method}, rule {rule}"
 
 
 def _trim(angle: float) -> str:

@@ -113,7 +113,7 @@ def test_stiffness_under_waves_is_the_derivative_that_taichi_takes() -> None:
     ship = load_ship("halifax", 10.0)
     every = np.ones(ship.mesh.panel_count, dtype=bool)
     expected, load = forward_stiffness(ship, WAVES, UNDER, every)
-    sea = SimpleNamespace(components=WAVES)
+    sea = SimpleNamespace(kind="given", components=WAVES)
     found = pressure_stiffness(ship, sea, TIME, UNDER, speed=SPEED)
     wetted = WettedSurface(ship, [WAVES], [SPEED])
     reference = wetted.evaluate(Instant(TIME, 1.0, np.array([UNDER]), np.zeros((1, 6))))[0]

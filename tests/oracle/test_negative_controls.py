@@ -15,7 +15,8 @@ from scipy.interpolate import PchipInterpolator
 import panelsim.hydro.diffraction
 import panelsim.loads.radiation
 import panelsim.loads.wetted_surface
-import panelsim.motion.simulate
+import panelsim.motion.batch
+import panelsim.motion.run_loads
 import panelsim.seaway.components
 from panelsim.conventions import DOF_NAMES, KNOT, ComplexArray, Dof, FloatArray
 from panelsim.hydro.database import HydroDatabase
@@ -135,7 +136,7 @@ def test_diffraction_without_its_convected_momentum_fails(
         encounter = encounter_frequency(frequency, wave_heading, speed, database.gravity)
         return -1j * encounter[:, None] * momentum
 
-    monkeypatch.setattr(panelsim.motion.simulate, "diffraction_load", without_lt)
+    monkeypatch.setattr(panelsim.motion.run_loads, "diffraction_load", without_lt)
     found = errors()
     assert found[30][:, Dof.PITCH].max() > CLEAR
     assert found[150][:, Dof.ROLL].max() > CLEAR
@@ -143,7 +144,7 @@ def test_diffraction_without_its_convected_momentum_fails(
 
 def test_radiation_without_speed_terms_fails(errors: Errors, monkeypatch: pytest.MonkeyPatch) -> None:
     """Zero-speed radiation with diffraction at speed: roll and pitch are far off."""
-    monkeypatch.setattr(panelsim.loads.radiation, "speed_coupling", lambda speed: np.zeros((6, 6)))
+    monkeypatch.setattr(panelsim.loads.radiation, "speed_coupling", lambda speed: np.zeros((1, 6, 6)))
     found = errors()
     assert found[150][:, Dof.ROLL].max() > CLEAR
     assert found[150][:, Dof.PITCH].max() > CLEAR
@@ -156,12 +157,13 @@ def test_radiation_without_its_transposed_coupling_fails(
 
     class WithoutTransposed(Radiation):
         def evaluate(self, past, displacement, velocity):
-            relative = velocity + self.coupling @ displacement
-            memory_part = past.fixed + past.newest @ relative
+            coupling = self.coupling[0]
+            relative = velocity[0] + coupling @ displacement[0]
+            memory_part = past.fixed[0] + past.newest @ relative
             momentum = self.added_mass_infinite @ relative + memory_part[:6]
-            return super().evaluate(past, displacement, velocity) - self.coupling.T @ momentum
+            return super().evaluate(past, displacement, velocity) - coupling.T @ momentum
 
-    monkeypatch.setattr(panelsim.motion.simulate, "Radiation", WithoutTransposed)
+    monkeypatch.setattr(panelsim.motion.batch, "Radiation", WithoutTransposed)
     assert errors()[150][:, Dof.PITCH].max() > CLEAR
 
 
@@ -203,14 +205,15 @@ def test_a_retardation_function_that_does_not_add_up_to_zero_drifts(
 
     def momentum_gathered() -> float:
         """|∫Ṗ_m dt| over 500 s of steady sway velocity, in shares of (A(0) − A∞) ν."""
-        radiation = Radiation(halifax_database, 0.0, 0.2)
+        radiation = Radiation(halifax_database, [0.0], 0.2)
+        at_rest = np.zeros((1, 6))
         added = halifax_database.added_mass_zero - radiation.added_mass_infinite
         steady = np.eye(6)[Dof.SWAY]
-        memory, gathered = radiation.start(np.zeros(6), np.zeros(6)), 0.0
+        memory, gathered = radiation.start(at_rest, at_rest), 0.0
         for _ in range(2500):
-            memory = radiation.remember(memory, np.zeros(6), steady)
+            memory = radiation.remember(memory, at_rest, steady[None])
             past = radiation.past(memory, 0.0)
-            gathered += 0.2 * float((past.fixed + past.newest @ steady)[6 + Dof.SWAY])
+            gathered += 0.2 * float((past.fixed[0] + past.newest @ steady)[6 + Dof.SWAY])
         return abs(gathered / added[Dof.SWAY, Dof.SWAY])
 
     right = momentum_gathered()

@@ -70,29 +70,6 @@ def subdivided(panels: PanelTables, levels: int) -> PanelTables:
     return panel_tables(points, index.reshape(-1, 3)[:, [0, 1, 2, 2]])
 
 
-def test_rule_error_on_one_hull_falls_with_the_panel_size() -> None:
-    """Panels of half the size each time; the reference has the same flat facets, split further."""
-    errors: dict[str, list[np.ndarray]] = {rule: [] for rule in CUT_RULES}
-    for n in (3, 6, 12, 24):
-        panels = ship(n)
-        reference = wetted_surface_load(subdivided(panels, 2), sea(), STATES, **WATER)
-        for rule in CUT_RULES:
-            load = wetted_surface_load(panels, sea(), STATES, rule=rule, **WATER)
-            errors[rule].append(relative_error(load, reference, panels))
-    order = {}
-    for rule, fall in errors.items():
-        order[rule] = slope([float(np.linalg.norm(error)) for error in fall])
-        for error in fall:
-            print(f"{rule}, error surge to yaw:", *(f"{part:.1e}" for part in error))
-        each = np.array([slope([error[i] for error in fall]) for i in range(6)])
-        print(f"{rule}: orders {each.round(2)}, together {order[rule]:.2f}")
-    assert 1.85 < order["vertex"] < 2.15
-    assert order["vertex+centre"] > 2.55
-    # The size of the error matters as much as its slope: 96 x 24 panels a side, 1.3 x 0.5 m.
-    assert errors["vertex"][-1].max() < 4e-4
-    assert errors["vertex+centre"][-1].max() < 4e-6
-
-
 def test_the_reference_of_the_rule_error_is_that_of_the_oracle() -> None:
     """The split facets once more, with the obvious rule in NumPy: 4^4 plain triangles for each."""
     panels = ship(3)
