@@ -85,7 +85,8 @@ class Case:
 
     def database(self, progress: Progress | None = None) -> HydroDatabase:
         """The hydrodynamic coefficients: from the case's file, stored before, or computed now."""
-        return self.stored_database() or database_for(self.ship, progress)
+        method = self.file.hydrodynamics.method
+        return self.stored_database() or database_for(self.ship, progress, method)
 
     def stored_database(self) -> HydroDatabase | None:
         """The coefficients of the file that the case names, or None where it names none.

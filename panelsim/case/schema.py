@@ -54,7 +54,7 @@ class ShipSection(Section):
 class HydrodynamicsSection(Section):
     """[hydrodynamics]: how coefficients are computed, or the file that holds them."""
 
-    method: Literal["bem"] = "bem"
+    method: Literal["bem", "strip"] = "bem"
     file: Annotated[str, Field(min_length=1)] | None = None
 
 

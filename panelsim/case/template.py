@@ -62,7 +62,7 @@ panel_area = {default_panel_area(form):.3g}              # m2, nominal
 # water_density = 1025.0        # kg/m3
 
 [hydrodynamics]
-method = "bem"                  # or file = "coefficients.nc", from `panelsim hydro`
+method = "bem"                  # bem | strip, or file = "coefficients.nc", from `panelsim hydro`
 
 [seaway]
 kind = "random"                 # random | regular | calm | record | dataset | components

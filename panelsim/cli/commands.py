@@ -284,7 +284,7 @@ def hull(
 def hydro(
     what: Annotated[str, typer.Argument(help="A bundled hull, a hull folder or a case file.")],
     output: Annotated[Path, typer.Option("-o", "--output", help="NetCDF file to write.")],
-    method: Annotated[str, typer.Option(help="bem (three-dimensional boundary elements).")] = "bem",
+    method: Annotated[str, typer.Option(help="bem (boundary elements in 3-D) or strip.")] = "bem",
     force: Force = False,
 ) -> None:
     """Compute the hydrodynamic coefficients of a ship and store them."""

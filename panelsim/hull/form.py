@@ -10,6 +10,7 @@ import numpy as np
 
 from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.hull.appendages import Appendages
 from panelsim.hull.curve import Waterline
 from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.hull.particulars import FILE_NAME, Loading, build_shape, read_particulars
@@ -32,6 +33,7 @@ class HullForm:
     `length_pp`, `beam` and `draft` (at midships) [m]; `trim_by_stern` [m] over `length_pp`, deeper aft
     positive. `published`: what the source states of this ship, SI. `supplementary`: stiffness and
     damping by motion, {"stiffness": {"surge": N/m, ...}, "damping": {"roll": N m/(rad/s), ...}}.
+    `appendages`: bilge keels, skeg and rudders; panels have none of them.
     """
 
     name: str
@@ -46,6 +48,7 @@ class HullForm:
     shape: Shape
     published: dict[str, float] = field(default_factory=dict)
     supplementary: dict[str, dict[str, float]] = field(default_factory=dict)
+    appendages: Appendages = field(default_factory=Appendages)
 
     def scaled(
         self, *, length: float | None = None, beam: float | None = None, draft: float | None = None
@@ -76,6 +79,7 @@ class HullForm:
             shape=self.shape.scaled(factors),
             published={},
             supplementary=_froude_scaled(self.supplementary, factors),
+            appendages=self.appendages.scaled(factors),
         )
 
     def panel(
@@ -113,9 +117,10 @@ def load_hull(name_or_path: str | Path) -> HullForm:
     if particulars.form_kind == "scaled_from":
         length, beam, draft = (particulars.dimensions[name] for name in ("length_pp", "beam", "draft"))
         parent = load_hull(_require_bundled(particulars.form["scaled_from"], folder))
-        shape = parent.scaled(length=length, beam=beam, draft=draft).shape
+        stretched = parent.scaled(length=length, beam=beam, draft=draft)
+        shape, inherited = stretched.shape, stretched.appendages
     else:
-        shape = build_shape(folder, particulars)
+        shape, inherited = build_shape(folder, particulars), Appendages()
     return HullForm(
         name=folder.name,
         title=particulars.title,
@@ -126,6 +131,7 @@ def load_hull(name_or_path: str | Path) -> HullForm:
         shape=shape,
         published=particulars.published,
         supplementary=particulars.supplementary,
+        appendages=inherited if particulars.appendages is None else particulars.appendages,
     )
 
 

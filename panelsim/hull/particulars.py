@@ -10,6 +10,7 @@ import numpy as np
 
 from panelsim.conventions import DOF_NAMES, FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.hull.appendages import Appendages, read_appendages
 from panelsim.hull.revolution import Revolution
 from panelsim.hull.sections import HullLines, read_offsets
 from panelsim.hull.shapes import Box, wigley_lines
@@ -52,7 +53,10 @@ class Loading:
 
 @dataclass(frozen=True)
 class Particulars:
-    """A checked particulars.toml: texts, dimensions and loading [m, kg/m3], and the table of the form."""
+    """A checked particulars.toml: texts, dimensions and loading [m, kg/m3], and the table of the form.
+
+    `appendages`: None where the file says nothing of them.
+    """
 
     title: str
     source: str
@@ -63,6 +67,7 @@ class Particulars:
     form: dict[str, Any]
     published: dict[str, float]
     supplementary: dict[str, dict[str, float]]
+    appendages: Appendages | None
 
 
 def read_particulars(folder: Path) -> Particulars:
@@ -73,7 +78,7 @@ def read_particulars(folder: Path) -> Particulars:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise PanelsimError(f"{path} is not a TOML file", got=error) from error
     needed = (*TEXTS, "form", "dimensions", "loading")
-    _require_keys(path, "", table, needed, ("assumptions", "published", "supplementary"))
+    _require_keys(path, "", table, needed, ("assumptions", "published", "supplementary", "appendages"))
     for key, texts in (
         *((key, [table[key]]) for key in TEXTS),
         ("assumptions", table.get("assumptions", [])),
@@ -101,6 +106,7 @@ def read_particulars(folder: Path) -> Particulars:
             kind: _numbers(path, f"supplementary.{kind}", supplementary.get(kind, {}), (), DOF_NAMES)
             for kind in SUPPLEMENTARY
         },
+        appendages=read_appendages(str(path), table["appendages"]) if "appendages" in table else None,
     )
 
 

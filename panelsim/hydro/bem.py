@@ -15,10 +15,10 @@ import numpy as np
 import xarray as xr
 from scipy.spatial import cKDTree
 
-from panelsim.conventions import DOF_NAMES, ComplexArray, FloatArray, IntArray
+from panelsim.conventions import ComplexArray, FloatArray, IntArray
 from panelsim.errors import PanelsimError
 from panelsim.hull.panel_mesh import PanelMesh
-from panelsim.hydro.conditioning import damping_roughness, require_physical, symmetrise
+from panelsim.hydro.radiation_dataset import radiation_dataset
 
 Progress = Callable[[int, int], None]
 
@@ -74,7 +74,7 @@ def solve_radiation(
             potential.append(phi[:, : hull.nb_faces])
             if progress is not None:
                 progress(done, len(frequencies) + 1)
-        dataset = _assemble(
+        dataset = radiation_dataset(
             frequencies,
             np.array(inertia),
             np.array(potential),
@@ -193,52 +193,3 @@ def _generalised_area(mesh: Any, waterline: float) -> FloatArray:
     arm = mesh.faces_centers + np.array([0.0, 0.0, waterline])
     normal = mesh.faces_normals
     return (np.hstack([normal, np.cross(arm, normal)]) * mesh.faces_areas[:, None]).T
-
-
-def _assemble(
-    frequencies: FloatArray,
-    inertia: ComplexArray,
-    potential: ComplexArray,
-    corners: FloatArray,
-    *,
-    mirror_symmetric: bool,
-) -> xr.Dataset:
-    """Split A + B/(iω) (F + 1, 6, 6), last row at infinity, symmetrise it and say by how much."""
-    half_breadth = float(np.abs(corners[..., 1]).max())
-    added_mass, transpose_a, coupling_a = symmetrise(
-        inertia.real, mirror_symmetric=mirror_symmetric, half_breadth=half_breadth
-    )
-    damping, transpose_b, coupling_b = symmetrise(
-        frequencies[:, None, None] * -inertia[:-1].imag,
-        mirror_symmetric=mirror_symmetric,
-        half_breadth=half_breadth,
-    )
-    require_physical(frequencies, added_mass[:-1], damping, half_breadth)
-    matrix = ("frequency", "influenced_dof", "radiating_dof")
-    field = ("frequency", "radiating_dof", "panel")
-    return xr.Dataset(
-        {
-            "added_mass": (matrix, added_mass[:-1]),
-            "radiation_damping": (matrix, damping),
-            "added_mass_infinite": (matrix[1:], added_mass[-1]),
-            # Single precision, as they are stored: a computed database is the same as one read back.
-            "potential_real": (field, potential[:-1].real.astype(np.float32)),
-            "potential_imag": (field, potential[:-1].imag.astype(np.float32)),
-            "potential_infinite": (field[1:], potential[-1].real.astype(np.float32)),
-            "panel_corners": (("panel", "corner", "axis"), corners),
-        },
-        coords={
-            "frequency": frequencies,
-            "influenced_dof": list(DOF_NAMES),
-            "radiating_dof": list(DOF_NAMES),
-            "axis": ["x", "y", "z"],
-        },
-        attrs={
-            "mirror_symmetric": int(mirror_symmetric),
-            "asymmetry_added_mass": transpose_a,
-            "asymmetry_radiation_damping": transpose_b,
-            "port_starboard_coupling": max(coupling_a, coupling_b),
-            "damping_roughness": damping_roughness(frequencies, damping, half_breadth),
-            "half_breadth": half_breadth,
-        },
-    )

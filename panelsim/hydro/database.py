@@ -14,6 +14,8 @@ from panelsim.files import write_whole
 from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.hull.refine import subdivided
 from panelsim.hydro.bem import Progress, highest_resolved_frequency, solve_radiation
+from panelsim.hydro.strip.database import highest_strip_frequency, solve_strips
+from panelsim.hydro.strip.mesh_sections import sections_of_mesh
 from panelsim.ship.bundled import default_panel_area
 from panelsim.ship.ship import Ship
 
@@ -33,10 +35,16 @@ _WET_PANELS_OF_AN_OWN_MESH = 1200
 _REFERENCE_LENGTH = 120.0
 _REFERENCE_FREQUENCIES = np.array([*np.arange(4) / 20.0, *np.arange(2, 10) / 10.0, *np.arange(20, 53) / 20.0])
 
-_VARIABLES = {
-    *("added_mass", "radiation_damping", "added_mass_infinite"),
-    *("potential_real", "potential_imag", "potential_infinite", "panel_corners"),
-}
+# Strips are led to rest from 0.4 rad/s, which wants closer steps; and sections resolve shorter waves than
+# panels do, which a ship at speed meets in head seas.
+_MORE_FOR_STRIPS = np.array([0.25, 0.35, 0.45, 0.55, *np.arange(14, 26) / 5.0])
+_STRIPS = 21
+
+METHODS = ("bem", "strip")
+
+_COEFFICIENTS = {"added_mass", "radiation_damping", "added_mass_infinite"}
+_POTENTIALS = {"potential_real", "potential_imag", "potential_infinite", "panel_corners"}
+_TABLES = {"diffraction_real", "diffraction_imag"}
 _PREFIX = "ship_"
 # How far a ship may differ from the one the database was made for. The longitudinal centre of gravity of a
 # ship that floats at a stated draft moves with its panelling, by centimetres on 100 m.
@@ -51,22 +59,30 @@ class HydroDatabase:
 
     A thin class over an xarray `dataset` laid out as `panelsim.hydro.bem.solve_radiation` says, with
     what it was computed for as attributes. One database serves every speed, heading and panel size.
+
+    Databases of other programs have no potentials, but diffraction loads at zero speed by wave frequency and
+    heading (`has_potentials` is False): `panelsim.hydro.tabulated_diffraction` says what they are good for.
     """
 
     dataset: xr.Dataset
 
     @classmethod
     def compute(cls, ship: Ship, method: str = "bem", progress: Progress | None = None) -> "HydroDatabase":
-        """Solve the radiation problems of a ship; seconds to a minute.
+        """Solve the radiation problems of a ship: by "bem" in seconds to a minute, by "strip" in two seconds.
 
-        A ship with a hull form is panelled anew, as finely as the frequencies need; one without is solved
-        on its own mesh, coarse panels split in four. `progress(done, total)` counts frequencies.
-        Raises PanelsimError for another method than "bem" and for a solution that is not physical.
+        "bem" are boundary elements in three dimensions, "strip" is strip theory on 21 sections cut from the
+        panels (`panelsim.hydro.strip.assembly`): for a slender hull, without surge, and with coefficients by
+        section. A ship with a hull form is panelled anew, as finely as the frequencies need; one without is
+        solved on its own mesh, for "bem" with coarse panels split in four. `progress(done, total)` counts
+        frequencies or sections. Raises PanelsimError for another method, for a solution that is not physical
+        and for sections that cannot be cut.
         """
-        if method != "bem":
-            raise PanelsimError("This method is not known", got=method, allowed="bem")
+        if method not in METHODS:
+            raise PanelsimError("This method is not known", got=method, allowed=" | ".join(METHODS))
         solved = _panelled_for_solution(ship)
         _require_same_flotation(ship, solved)
+        if method == "strip":
+            return cls.of_ship(solved, _solve_strips(solved, progress))
         mesh = solved.mesh if ship.form is not None else _refined(ship)
         wet = _wet_panels(ship, mesh)
         resolved = highest_resolved_frequency(float(mesh.area[wet].mean()), ship.gravity)
@@ -79,12 +95,24 @@ class HydroDatabase:
             frequencies=frequency_grid(ship.length, resolved),
             progress=progress,
         )
-        identity = {_PREFIX + name: value for name, value in solved.identity().items()}
+        return cls.of_ship(solved, dataset)
+
+    @classmethod
+    def of_ship(cls, ship: Ship, dataset: xr.Dataset) -> "HydroDatabase":
+        """A database of coefficients that were found for this ship: `dataset` is told what it is."""
+        identity = {_PREFIX + name: value for name, value in ship.identity().items()}
+        conventions = dict(_CONVENTIONS)
+        if "diffraction_real" in dataset:
+            conventions["potential"] = "none"
+            conventions["diffraction"] = (
+                "load of the scattered wave at zero speed per metre of amplitude, crest at the centre of"
+                " gravity; wave heading in rad, 0 following, pi/2 from port, pi head"
+            )
         dataset.attrs |= {
             "format": FORMAT,
             "name": ship.name,
             "length": ship.length,
-            **_CONVENTIONS,
+            **conventions,
             **identity,
         }
         return cls(dataset)
@@ -108,7 +136,9 @@ class HydroDatabase:
                 got=f"{path} ({error})",
                 remedy="compute it again with `panelsim hydro NAME -o FILE.nc`",
             ) from error
-        if dataset.attrs.get("format") != FORMAT or not set(dataset.data_vars) >= _VARIABLES:
+        held = set(dataset.data_vars)
+        whole = held >= _COEFFICIENTS and (held >= _POTENTIALS or held >= _TABLES)
+        if dataset.attrs.get("format") != FORMAT or not whole:
             raise PanelsimError(
                 "This file is no hydrodynamic database of panelsim",
                 got=f"{path}, format {dataset.attrs.get('format')!r}",
@@ -148,9 +178,53 @@ class HydroDatabase:
         """A(∞) (6, 6) of the boundary elements."""
         return self.dataset["added_mass_infinite"].values
 
+    @property
+    def has_potentials(self) -> bool:
+        """True with radiation potentials, from which diffraction at any speed and heading follows."""
+        return set(self.dataset.data_vars) >= _POTENTIALS
+
+    @cached_property
+    def wave_frequencies(self) -> FloatArray:
+        """Wave frequencies (W,) [rad/s] of the diffraction tables, ascending."""
+        return np.asarray(self._tables["wave_frequency"].values, dtype=np.float64)
+
+    @cached_property
+    def wave_headings(self) -> FloatArray:
+        """Headings (H,) [rad] of the diffraction tables, ascending in (-π, π], 0 following, π head."""
+        return np.asarray(self._tables["wave_heading"].values, dtype=np.float64)
+
+    @cached_property
+    def diffraction_table(self) -> ComplexArray:
+        """Diffraction loads at zero speed (W, H, 6) per unit amplitude [N/m, N], as `diffraction_load`."""
+        tables = self._tables
+        return tables["diffraction_real"].values + 1j * tables["diffraction_imag"].values
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Sentences on where the coefficients come from and what was taken for granted; often none."""
+        return tuple(str(self.dataset.attrs.get("notes", "")).splitlines())
+
+    @property
+    def _tables(self) -> xr.Dataset:
+        if not set(self.dataset.data_vars) >= _TABLES:
+            raise PanelsimError(
+                "This database holds no diffraction tables",
+                remedy="its potentials give diffraction at any frequency and heading: diffraction_load",
+            )
+        return self.dataset
+
     @cached_property
     def potential(self) -> ComplexArray:
-        """Radiation potentials φ_j(ω) (F, 6, panels), ∂φ_j/∂n = n_j."""
+        """Radiation potentials φ_j(ω) (F, 6, panels), ∂φ_j/∂n = n_j.
+
+        Raises PanelsimError where the database came from another program and holds none.
+        """
+        if not self.has_potentials:
+            raise PanelsimError(
+                "This database holds no radiation potentials, only diffraction tables",
+                got=self.dataset.attrs.get("solver"),
+                remedy="compute one with `panelsim hydro NAME -o FILE.nc`",
+            )
         real = self.dataset["potential_real"].values.astype(np.float64)
         return real + 1j * self.dataset["potential_imag"].values
 
@@ -223,6 +297,24 @@ def frequency_grid(length: float, highest: float = np.inf) -> FloatArray:
     """Frequencies (F,) [rad/s] from 0 for a ship of this length [m], drawn together to end by `highest`."""
     scale = np.sqrt(_REFERENCE_LENGTH / length)
     return _REFERENCE_FREQUENCIES * min(scale, highest / _REFERENCE_FREQUENCIES[-1])
+
+
+def strip_frequency_grid(length: float, highest: float = np.inf) -> FloatArray:
+    """`frequency_grid` with closer steps at the lower end, and on to `highest` [rad/s] or 5 at 120 m."""
+    grid = frequency_grid(length, highest)
+    more = _MORE_FOR_STRIPS * grid[-1] / _REFERENCE_FREQUENCIES[-1]
+    return np.union1d(grid, more[more <= highest])
+
+
+def _solve_strips(ship: Ship, progress: Progress | None) -> xr.Dataset:
+    sections = sections_of_mesh(ship.vertices, ship.mesh.panels, ship.waterline, _STRIPS)
+    return solve_strips(
+        sections,
+        water_density=ship.water_density,
+        gravity=ship.gravity,
+        frequencies=strip_frequency_grid(ship.length, highest_strip_frequency(sections, ship.gravity)),
+        progress=progress,
+    )
 
 
 def _panelled_for_solution(ship: Ship) -> Ship:

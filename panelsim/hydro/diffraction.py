@@ -3,16 +3,18 @@
 The scattered wave φ_D cancels the flow of the incident wave φ_I through the hull. Its momentum needs no
 solution of its own: P_d,j = -ρ ∫ φ_D n_j dS = ρ ∫ φ_j(ω_e) ∂φ_I/∂n dS, with the radiation potentials φ_j
 at the frequency of encounter and φ_I at the wave's own wavenumber. The load is F = (-iω_e + Lᵀ) P_d with
-L35 = +U, L26 = -U, and nothing is divided by ω_e.
+L35 = +U, L26 = -U, and nothing is divided by ω_e. A database without potentials gives P_d from its tables.
 """
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from panelsim.conventions import ComplexArray, Dof, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.interpolation import at_frequency
+from panelsim.hydro.tabulated_diffraction import tabulated_momentum
+from panelsim.hydro.transom import Transom
 from panelsim.seaway.dispersion import encounter_frequency, wavenumber
 
 _GAUSS = np.array([-1.0, 1.0]) / np.sqrt(3.0)
@@ -21,13 +23,19 @@ _MIRROR_SIGN = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
 
 
 def diffraction_load(
-    database: HydroDatabase, frequency: FloatArray, wave_heading: FloatArray, speed: float
+    database: HydroDatabase,
+    frequency: FloatArray,
+    wave_heading: FloatArray,
+    speed: float,
+    transom: Transom | None = None,
 ) -> ComplexArray:
     """Diffraction force and moment (M, 6) [N, N m] about the centre of gravity for waves of 1 m amplitude.
 
     `frequency` ω (M,) [rad/s] more than 0, `wave_heading` β (M,) [rad], 0 following, π head; `speed` [m/s].
-    Complex amplitude with exp(+iω_e t), ω_e signed, on the ship's mean position in ship axes, the phase
-    that of a crest at the centre of gravity at t = 0. Raises PanelsimError for a frequency not above 0.
+    Complex amplitude with exp(+iω_e t), ω_e signed, on the ship's mean position in ship axes, the phase that
+    of a crest at the centre of gravity at t = 0. With a `transom`, less U times the momentum per metre that
+    leaves there, the end terms of Salvesen, Tuck and Faltinsen (1970). Raises PanelsimError for a frequency
+    not above 0 and, without potentials, for waves that the tables of the database do not cover.
     """
     omega, heading = _components(frequency, wave_heading)
     momentum = diffraction_momentum(database, omega, heading, speed)
@@ -35,7 +43,7 @@ def diffraction_load(
     load = -1j * encounter[:, None] * momentum
     load[:, Dof.PITCH] += speed * momentum[:, Dof.HEAVE]
     load[:, Dof.YAW] -= speed * momentum[:, Dof.SWAY]
-    return load
+    return load if transom is None else load - speed * transom.momentum(omega, heading, encounter)
 
 
 def diffraction_momentum(
@@ -44,6 +52,8 @@ def diffraction_momentum(
     """Momentum P_d (M, 6) [kg m/s, kg m2/s] of the scattered wave, arguments as in `diffraction_load`."""
     omega, heading = _components(frequency, wave_heading)
     encounter = encounter_frequency(omega, heading, speed, database.gravity)
+    if not database.has_potentials:
+        return tabulated_momentum(database, omega, heading, encounter)
     even, odd = _normal_flow(database, omega, heading)
     momentum = np.empty((len(omega), 6), dtype=np.complex128)
     potential = radiation_potential(database, encounter)
@@ -54,21 +64,8 @@ def diffraction_momentum(
 
 
 def radiation_potential(database: HydroDatabase, encounter: FloatArray) -> ComplexArray:
-    """Radiation potentials φ_j (M, 6, panels) at signed frequencies of encounter (M,) [rad/s].
-
-    Cubic between the stored frequencies; φ_j(-ω) is the conjugate of φ_j(ω). Beyond the last frequency, where
-    the panels resolve no wave, φ_j(ω) = φ_j(∞) + (φ_j(last) - φ_j(∞)) (last/ω)².
-    """
-    frequencies = database.frequencies
-    last = frequencies[-1]
-    magnitude = np.abs(encounter)
-    # Even and odd continuation through rest, A(ω) and B(ω)/ω, both leave 0 with no slope.
-    spline = CubicSpline(frequencies, database.potential, bc_type=("clamped", "not-a-knot"))
-    potential = spline(np.minimum(magnitude, last))
-    fading = np.where(magnitude > last, (last / np.maximum(magnitude, last)) ** 2, 1.0)[:, None, None]
-    infinite = database.potential_infinite
-    potential = infinite + (potential - infinite) * fading
-    return np.where((encounter < 0.0)[:, None, None], potential.conj(), potential)
+    """Radiation potentials φ_j (M, 6, panels) at signed frequencies of encounter (M,) [rad/s]."""
+    return at_frequency(database.frequencies, database.potential, database.potential_infinite, encounter)
 
 
 def beyond_resolution(

@@ -56,7 +56,8 @@ def _damping_with_tail(frequencies: FloatArray, damping: FloatArray) -> tuple[Fl
     resolved = PchipInterpolator(frequencies, damping)(inside)
     end = inside >= _TAIL_FITTED_FROM * last
     diagonal = np.einsum("fii->fi", resolved)
-    positive = np.maximum(diagonal[end], 1e-6 * diagonal.max(axis=0))
+    # A motion may make no waves at all, as surge in strip theory.
+    positive = np.maximum(diagonal[end], 1e-6 * diagonal.max(axis=0) + np.finfo(float).tiny)
     power = np.clip(-np.polyfit(np.log(inside[end]), np.log(positive), 1)[0], *_TAIL_POWERS)
     beyond = last * np.geomspace(1.0, _TAIL_REACH, _TAIL_SAMPLES)[1:]
     pair_power = 0.5 * (power[:, None] + power[None, :])

@@ -22,20 +22,21 @@ def cache_folder() -> Path:
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "panelsim"
 
 
-def database_for(ship: Ship, progress: Progress | None = None) -> HydroDatabase:
+def database_for(ship: Ship, progress: Progress | None = None, method: str = "bem") -> HydroDatabase:
     """The database of a ship: bundled with its hull, cached from an earlier run, or computed and cached.
 
-    `progress(done, total)` is called only while one is computed.
+    `method` as in `HydroDatabase.compute`; those that are bundled are by "bem". `progress(done, total)` is
+    called only while one is computed.
     """
-    if ship.form is not None and ship.form.name in bundled_hull_names():
+    if method == "bem" and ship.form is not None and ship.form.name in bundled_hull_names():
         bundled = _matching(hull_folder(ship.form.name) / STORED_NAME, ship)
         if bundled is not None:
             return bundled
-    cached_at = cache_folder() / f"{_cache_key(ship)}.nc"
+    cached_at = cache_folder() / f"{_cache_key(ship, method)}.nc"
     cached = _matching(cached_at, ship)
     if cached is not None:
         return cached
-    database = HydroDatabase.compute(ship, progress=progress)
+    database = HydroDatabase.compute(ship, method, progress=progress)
     # A cache that cannot be written costs the next run its time, and this one nothing.
     with contextlib.suppress(PanelsimError):
         database.save(cached_at)
@@ -54,8 +55,8 @@ def _matching(path: Path, ship: Ship) -> HydroDatabase | None:
     return database
 
 
-def _cache_key(ship: Ship) -> str:
+def _cache_key(ship: Ship, method: str) -> str:
     """Hash of what coefficients depend on, without the longitudinal CG, which moves with the panelling."""
     identity = {k: v if isinstance(v, str) else f"{v:.4g}" for k, v in ship.identity().items()}
     del identity["center_of_gravity_x"]
-    return hashlib.sha256(json.dumps([FORMAT, identity], sort_keys=True).encode()).hexdigest()[:20]
+    return hashlib.sha256(json.dumps([FORMAT, method, identity], sort_keys=True).encode()).hexdigest()[:20]

@@ -1,0 +1,104 @@
+"""Coefficients and potentials of a ship by strip theory, laid out as those by boundary elements in 3-D.
+
+An element of a section stands for a panel as long as its strip, with its potentials, so that diffraction at
+any speed and heading is formed from the one as from the other. The normal of such a panel has no x-component.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+import xarray as xr
+
+from panelsim.conventions import DOF_NAMES, ComplexArray, Dof, FloatArray
+from panelsim.hydro.radiation_dataset import radiation_dataset
+from panelsim.hydro.strip.assembly import Strips, lowest_strip_frequency, section_motion
+from panelsim.hydro.strip.contour import Contour, contour_nodes, highest_frequency
+from panelsim.hydro.strip.frank import ELEMENTS
+from panelsim.hydro.strip.long_waves import solve_at_all_frequencies
+from panelsim.hydro.strip.sections import HullSections
+
+SECTION_DOFS = tuple(DOF_NAMES[dof] for dof in (Dof.SWAY, Dof.HEAVE, Dof.ROLL))
+
+
+def solve_strips(
+    sections: HullSections,
+    *,
+    water_density: float,
+    gravity: float,
+    frequencies: FloatArray,
+    progress: Callable[[int, int], None] | None = None,
+) -> xr.Dataset:
+    """Added mass, damping and potentials of a hull at zero speed by strip theory.
+
+    `frequencies` (F,) [rad/s], ascending from 0; the limit of infinite frequency is always added.
+    `progress(done, total)` counts sections. The Dataset is that of `panelsim.hydro.bem.solve_radiation`, and
+    holds besides, by station from the stern forward, `section_x`, `strip_length` [m] and the coefficients per
+    metre `section_added_mass`, `section_damping` (frequency, section, 3, 3) and `section_added_mass_infinite`
+    in sway, heave and roll about the centre of gravity. Raises PanelsimError for frequencies that the
+    elements do not resolve.
+    """
+    frequencies = np.array(frequencies, dtype=np.float64)
+    lowest = lowest_strip_frequency(sections.fore_end - sections.aft_end, gravity)
+    solutions = []
+    for section in sections.sections:
+        solutions.append(
+            solve_at_all_frequencies(
+                section, frequencies, lowest, water_density=water_density, gravity=gravity
+            )
+        )
+        if progress is not None:
+            progress(len(solutions), len(sections.sections))
+    strips = Strips(sections, tuple(solutions))
+    symmetric = all(section.symmetric for section in sections.sections)
+    potential, corners = _panels(strips, half_hull=symmetric)
+    dataset = radiation_dataset(frequencies, strips.inertia, potential, corners, mirror_symmetric=symmetric)
+    return _with_sections(dataset, strips).assign_attrs(
+        half_hull=int(symmetric),
+        waterline=sections.sections[0].waterline,
+        water_density=water_density,
+        gravity=gravity,
+        lowest_strip_frequency=lowest,
+        solver=f"strip theory, {len(solutions)} sections of {ELEMENTS} elements",
+        notes="Strip theory: no radiation and no diffraction in surge; heave and pitch are led to their"
+        f" limits at rest below {lowest:.3g} rad/s, where waves are longer than three ships.",
+    )
+
+
+def highest_strip_frequency(sections: HullSections, gravity: float) -> float:
+    """Frequency [rad/s] up to which the elements of all sections resolve the wave length."""
+    return min(
+        highest_frequency(Contour.of_nodes(contour_nodes(s, ELEMENTS), s.waterline), gravity)
+        for s in sections.sections
+    )
+
+
+def _panels(strips: Strips, *, half_hull: bool) -> tuple[ComplexArray, FloatArray]:
+    """Potentials (F + 1, 6, panels) and corners (panels, 4, 3) of all elements, or of those to port."""
+    ends = strips.sections.aft_end + np.concatenate([[0.0], np.cumsum(strips.sections.strip_length)])
+    potential, corners = [], []
+    for i, solution in enumerate(strips.solutions):
+        contour = solution.contour
+        first = len(contour.length) // 2 if half_hull else 0
+        of_ship = np.einsum("fan,ai->fin", solution.potential, section_motion(strips.middle[i]))
+        potential.append(of_ship[..., first:])
+        start, end = contour.centre - 0.5 * contour.chord, contour.centre + 0.5 * contour.chord
+        quads = np.empty((len(contour.length), 4, 3))
+        quads[:, [0, 3], 0], quads[:, [1, 2], 0] = ends[i + 1], ends[i]
+        quads[:, :2, 1:], quads[:, 2:, 1:] = start[:, None], end[:, None]
+        corners.append(quads[first:])
+    return np.concatenate(potential, axis=-1), np.concatenate(corners)
+
+
+def _with_sections(dataset: xr.Dataset, strips: Strips) -> xr.Dataset:
+    inertia = strips.section_inertia
+    omega = dataset["frequency"].values[:, None, None, None]
+    matrix = ("section", "section_influenced_dof", "section_radiating_dof")
+    return dataset.assign_coords(
+        section_influenced_dof=list(SECTION_DOFS), section_radiating_dof=list(SECTION_DOFS)
+    ).assign(
+        section_x=("section", strips.middle),
+        strip_length=("section", strips.sections.strip_length),
+        section_added_mass=(("frequency", *matrix), inertia[:-1].real),
+        section_damping=(("frequency", *matrix), -omega * inertia[:-1].imag),
+        section_added_mass_infinite=(matrix, inertia[-1].real),
+    )

@@ -1,0 +1,104 @@
+"""The section at a transom: where the water leaves a moving hull with the momentum that the hull gave it.
+
+Salvesen, Tuck and Faltinsen (1970) integrate the force along the ship up to the transom; the terms that are
+left over there need the coefficients of this one section, which are two-dimensional whatever the source of
+the others. They hold for a transom that stays wet behind; whether they help is disputed, so that they are
+left out unless asked for.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from panelsim.conventions import ComplexArray, FloatArray
+from panelsim.errors import PanelsimError
+from panelsim.hydro.interpolation import at_frequency
+from panelsim.hydro.strip.assembly import lowest_strip_frequency, section_motion
+from panelsim.hydro.strip.incident import diffraction_momentum_section
+from panelsim.hydro.strip.long_waves import solve_at_all_frequencies
+from panelsim.hydro.strip.mesh_sections import section_of_mesh, wet_ends
+from panelsim.hydro.strip.sections import Section
+from panelsim.hydro.strip.solution import SectionSolution
+from panelsim.seaway.dispersion import wavenumber
+from panelsim.ship.ship import Ship
+
+_AHEAD = 1e-4  # share of the wet length by which the cut is made ahead of the flat transom
+_SMALLEST = 0.01  # share of the midship section's area
+
+
+@dataclass(frozen=True, eq=False)
+class Transom:
+    """The solved section at x [m] in ship axes, its last frequency infinite and its first rest."""
+
+    x: float
+    solution: SectionSolution
+
+    @classmethod
+    def of_ship(cls, ship: Ship, frequencies: FloatArray) -> "Transom":
+        """Cut and solve the aftmost wet section of a ship at rest.
+
+        `frequencies` (F,) [rad/s], ascending from 0: those of the database that it goes with. Raises
+        PanelsimError for a stern that ends without a wet transom.
+        """
+        aft, fore = wet_ends(ship.vertices, ship.mesh.panels, ship.waterline)
+        section = _section(ship, aft + _AHEAD * (fore - aft))
+        share = section.area / _section(ship, 0.5 * (aft + fore)).area
+        if share < _SMALLEST:
+            raise PanelsimError(
+                "The ship has no wet transom",
+                got=f"an aftmost section of {100 * share:.2g} % of the midship section's area",
+                allowed=f"{100 * _SMALLEST:.2g} % or more",
+                remedy="leave the transom terms out",
+            )
+        solution = solve_at_all_frequencies(
+            section,
+            frequencies,
+            lowest_strip_frequency(fore - aft, ship.gravity),
+            water_density=ship.water_density,
+            gravity=ship.gravity,
+        )
+        return cls(section.x, solution)
+
+    @cached_property
+    def added_mass(self) -> FloatArray:
+        """Eᵀ a E (F + 1, 6, 6) per metre of length about the CG, the last row at infinite frequency."""
+        return self._of_ship(self.solution.added_mass)
+
+    @cached_property
+    def damping(self) -> FloatArray:
+        """Eᵀ b E (F + 1, 6, 6) per metre of length about the CG."""
+        return self._of_ship(self.solution.damping)
+
+    def inertia(self, encounter: FloatArray) -> ComplexArray:
+        """Eᵀ (a + b/(iω_e)) E (M, 6, 6) per metre at signed frequencies of encounter (M,) [rad/s]."""
+        stored = self.solution.frequencies[:-1]
+        ratio = np.zeros_like(self.damping[:-1])
+        ratio[1:] = self.damping[1:-1] / stored[1:, None, None]
+        return at_frequency(stored, self.added_mass[:-1] - 1j * ratio, self.added_mass[-1], encounter)
+
+    def momentum(
+        self, frequency: FloatArray, wave_heading: FloatArray, encounter: FloatArray
+    ) -> ComplexArray:
+        """Momentum (M, 6) per metre of the scattered wave at the transom, for waves of 1 m.
+
+        `frequency` ω (M,) and `encounter` ω_e (M,) [rad/s], `wave_heading` β (M,) [rad]; the phase is that of
+        a crest at the CG.
+        """
+        solution = self.solution
+        stored = solution.frequencies[:-1]
+        potential = at_frequency(stored, solution.potential[:-1], solution.potential[-1].real, encounter)
+        of_section = diffraction_momentum_section(solution, potential, frequency, wave_heading)
+        k = wavenumber(frequency, solution.gravity)
+        phase = np.exp(-1j * k * self.x * np.cos(wave_heading))
+        momentum: ComplexArray = phase[:, None] * (of_section @ section_motion(self.x))
+        return momentum
+
+    def _of_ship(self, sectional: FloatArray) -> FloatArray:
+        motion = section_motion(self.x)
+        mean = 0.5 * (sectional + np.swapaxes(sectional, 1, 2))
+        return motion.T @ mean @ motion
+
+
+def _section(ship: Ship, x: float) -> Section:
+    return section_of_mesh(ship.vertices, ship.mesh.panels, ship.waterline, x)
