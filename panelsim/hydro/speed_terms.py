@@ -49,13 +49,17 @@ class RadiationAtSpeed:
         return np.asarray(inertial + self.stiffness + 1j * omega * self.damping)
 
 
-def speed_coupling(speed: float) -> FloatArray:
-    """L (6, 6) [m/s]: ν = η̇ + L η is the velocity of the hull relative to the stream; `speed` [m/s]."""
-    if not (np.isfinite(speed) and speed >= 0.0):
+def speed_coupling(speed: float | FloatArray) -> FloatArray:
+    """L (6, 6) [m/s]: ν = η̇ + L η is the velocity of the hull relative to the stream.
+
+    For speeds (B,) [m/s] one for each, (B, 6, 6).
+    """
+    speeds = np.asarray(speed, dtype=float)
+    if not (np.isfinite(speeds) & (speeds >= 0.0)).all():
         raise PanelsimError("This is no speed of a ship", got=f"{speed} m/s", allowed="0 m/s or more")
-    coupling = np.zeros((6, 6))
-    coupling[Dof.HEAVE, Dof.PITCH] = speed
-    coupling[Dof.SWAY, Dof.YAW] = -speed
+    coupling = np.zeros((*speeds.shape, 6, 6))
+    coupling[..., Dof.HEAVE, Dof.PITCH] = speeds
+    coupling[..., Dof.SWAY, Dof.YAW] = -speeds
     return coupling
 
 

@@ -10,22 +10,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from panelsim.conventions import Dof, FloatArray
+from panelsim.conventions import FloatArray
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.memory import memory_functions
 from panelsim.hydro.memory_states import memory_states
+from panelsim.hydro.speed_terms import speed_coupling
 from panelsim.loads.load import times_each
-
-
-def speed_coupling(speed: float | FloatArray) -> FloatArray:
-    """L (6, 6) [m/s]: ν = η̇ + L η is the velocity of the hull relative to the stream.
-
-    For speeds (B,) [m/s] one for each, (B, 6, 6).
-    """
-    coupling = np.zeros((*np.shape(speed), 6, 6))
-    coupling[..., Dof.HEAVE, Dof.PITCH] = speed
-    coupling[..., Dof.SWAY, Dof.YAW] = -np.asarray(speed)
-    return coupling
 
 
 class Radiation:

@@ -5,6 +5,7 @@ import numpy as np
 from panelsim.conventions import Dof
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.diffraction import beyond_resolution
+from panelsim.hydro.tabulated_diffraction import SPEED_NOTE
 from panelsim.loads.supplementary import Supplementary
 from panelsim.motion.requirements import ENERGY_THAT_COUNTS, energy_share
 from panelsim.seaway.components import WaveComponents
@@ -36,7 +37,9 @@ def run_notes(
 
     `seeded` where the phases are a choice of chance, not those of a record.
     """
-    notes = []
+    notes = [*database.notes]
+    if speed and not database.has_potentials:
+        notes.append(SPEED_NOTE)
     if components.second_order and model == "linear":
         notes.append(
             "The linear model takes the first order of the Stokes waves; their second order shows in the"
@@ -57,7 +60,7 @@ def run_notes(
 
 
 def _resolution_note(components: WaveComponents, database: HydroDatabase, speed: float) -> list[str]:
-    """Waves met faster than the panels of the coefficients resolve, and what is done about them."""
+    """Waves met faster than the coefficients reach, and what is done about them."""
     beyond = beyond_resolution(database, components.frequency, components.wave_heading, speed)
     if not beyond.any():
         return []
@@ -65,9 +68,9 @@ def _resolution_note(components: WaveComponents, database: HydroDatabase, speed:
     return [
         f"{beyond.sum()} of {components.count} wave components, with"
         f" {100 * energy_share(components, beyond):.2g} % of the wave energy, meet the ship at up to"
-        f" {highest:.2f} rad/s, beyond the {database.frequencies[-1]:.2f} rad/s that the panels of the"
-        " coefficients resolve; there the diffraction potential tends to its infinite-frequency limit"
-        " as 1/ω², and radiation follows A∞ and the damping's tail."
+        f" {highest:.2f} rad/s, beyond the {database.frequencies[-1]:.2f} rad/s that the"
+        " coefficients reach; there diffraction tends to its infinite-frequency limit as 1/ω², and"
+        " radiation follows A∞ and the damping's tail."
     ]
 
 
