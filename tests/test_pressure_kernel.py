@@ -448,3 +448,17 @@ print(np.array_equal(load.in_ship_axes(rest), before))
 """
     )
     assert in_a_fresh_process(script).splitlines()[-1] == "True"
+
+
+def test_starting_taichi_leaves_the_arithmetic_of_the_process_alone() -> None:
+    """It would flush the smallest numbers to zero, and functions of scipy that pass through them go wrong."""
+    script = (
+        FIRST_CALLS
+        + """
+before = ps.CosinePower(340.0).mean_cosine
+ps.pressure_force(ship, sea, 3.0, [0.0] * 6)
+sea.in_fixed_axes().elevation(np.zeros(20), 0.0, 0.0)
+print(np.float64(1e-310) * 0.5 > 0.0, ps.CosinePower(340.0).mean_cosine == before)
+"""
+    )
+    assert in_a_fresh_process(script).split() == ["True", "True"]
