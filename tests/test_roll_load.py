@@ -57,16 +57,17 @@ def test_the_slope_is_that_of_the_load_at_rest() -> None:
 
 @pytest.mark.parametrize("model", ["nonlinear", "linear"])
 def test_linear_damping_is_that_of_the_supplementary_terms(model: str, run_halifax: Run) -> None:
-    ours = run_halifax(model=model, roll_damping=RollDampingTerms(2e7), **FREE)
-    theirs = run_halifax(model=model, **(FREE | {"supplementary": Supplementary(damping={"roll": 2e7})}))
-    # The same numbers added in another order: rounding, over 300 steps.
+    common = FREE | {"model": model, "duration": 10.0}
+    ours = run_halifax(roll_damping=RollDampingTerms(2e7), **common)
+    theirs = run_halifax(**(common | {"supplementary": Supplementary(damping={"roll": 2e7})}))
+    # The same numbers added in another order: rounding, over 50 steps.
     np.testing.assert_allclose(ours.displacement, theirs.displacement, atol=1e-11)
     np.testing.assert_allclose(ours.loads["roll_damping"], theirs.loads["supplementary"], atol=1e-9 * 2e7)
 
 
 def test_the_history_has_the_load(run_halifax: Run) -> None:
     """RK4 evaluates the loads where the ship is."""
-    history = run_halifax(stepper="rk4", duration=10.0, roll_damping=TERMS, **FREE)
+    history = run_halifax(stepper="rk4", duration=5.0, roll_damping=TERMS, **FREE)
     load = history.loads["roll_damping"]
     np.testing.assert_allclose(load[:, 3], TERMS.moment(history.velocity[:, 3]), rtol=1e-12)
     assert not load[:, [0, 1, 2, 4, 5]].any()
@@ -78,7 +79,7 @@ def test_the_history_has_the_load(run_halifax: Run) -> None:
 
 def test_the_steppers_agree(run_halifax: Run) -> None:
     """The exponential scheme at 0.4 s against RK4 at 0.1 s, damping that halves a roll in two cycles."""
-    common = FREE | {"model": "nonlinear", "roll_damping": TERMS, "duration": 40.0}
+    common = FREE | {"model": "nonlinear", "roll_damping": TERMS, "duration": 20.0}
     fine = run_halifax(stepper="rk4", time_step=0.1, **common).displacement[::4, 3]
     coarse = run_halifax(time_step=0.4, **common).displacement[:, 3]
     # Measured 7e-4 of the heel; without the slope of the linear term in the scheme 2e-3.
@@ -112,15 +113,15 @@ def test_members_of_a_batch_have_their_own(
 
 def test_a_run_goes_on_with_its_own_damping_only(run_halifax: Run) -> None:
     common = FREE | {"model": "nonlinear", "roll_damping": TERMS}
-    whole = run_halifax(duration=8.0, **common)
-    begun = run_halifax(duration=4.0, **common)
+    whole = run_halifax(duration=4.0, **common)
+    begun = run_halifax(duration=2.0, **common)
     np.testing.assert_array_equal(
-        run_halifax(duration=8.0, resume=begun, **common).displacement, whole.displacement
+        run_halifax(duration=4.0, resume=begun, **common).displacement, whole.displacement
     )
     # It differs in the sixth digit only.
     other = common | {"roll_damping": replace(TERMS, linear=1.000001e7)}
     with pytest.raises(PanelsimError, match="its roll damping is another"):
-        run_halifax(duration=8.0, resume=begun, **other)
+        run_halifax(duration=4.0, resume=begun, **other)
 
 
 @pytest.mark.parametrize(
@@ -263,6 +264,8 @@ def test_ikeda_takes_speed_keels_and_natural_frequency(
 def test_a_hull_without_keels_says_so(tmp_path: Path) -> None:
     naked = case(tmp_path, '[roll_damping]\nmethod = "ikeda"', "s175")
     assert any("no bilge keels" in warning for warning in naked.warnings())
+    # Its bulb, which is wider below than at the water, is no section for this method.
+    assert 60.0 < rolling_hull(naked.ship).sections.x[-1] < 83.0
 
 
 def test_the_linear_model_takes_the_same_energy(tmp_path: Path, halifax_database: HydroDatabase) -> None:
@@ -312,7 +315,6 @@ def test_what_no_case_may_say(table: str, words: str, tmp_path: Path) -> None:
         case(tmp_path, f"[roll_damping]\n{table}\n")
 
 
-@pytest.mark.parametrize("hull", ["box", "wigley_iii"])
-def test_ikeda_needs_sections(hull: str, tmp_path: Path) -> None:
+def test_ikeda_needs_sections(tmp_path: Path) -> None:
     with pytest.raises(PanelsimError, match="needs the sections"):
-        case(tmp_path, '[roll_damping]\nmethod = "ikeda"', hull).warnings()
+        case(tmp_path, '[roll_damping]\nmethod = "ikeda"', "box").warnings()
