@@ -8,11 +8,17 @@ from typing import Any
 import numpy as np
 
 from panelsim.case.reading import read_case_file
+from panelsim.case.roll_damping_section import (
+    build_roll_damping,
+    require_one_roll_damping,
+    roll_damping_warnings,
+)
 from panelsim.case.schema import CaseFile
 from panelsim.case.seaway_section import SeawayBuilder
 from panelsim.case.ship_section import beside, build_ship
 from panelsim.conventions import KNOT
 from panelsim.hydro.database import HydroDatabase, Progress
+from panelsim.hydro.roll_damping.terms import RollDampingTerms
 from panelsim.hydro.store import database_for
 from panelsim.loads.supplementary import Supplementary
 from panelsim.seaway.random import RandomSeaway
@@ -75,13 +81,23 @@ class Case:
 
     @cached_property
     def supplementary(self) -> Supplementary:
-        """Supplementary terms: each table that of the case, else of the hull's particulars."""
+        """Supplementary terms: each table that of the case, else of the hull's particulars.
+
+        Raises PanelsimError where they damp the roll and [roll_damping] does so too.
+        """
         section = self.file.supplementary
         own = Supplementary.of(self.ship)
-        return Supplementary(
+        supplementary = Supplementary(
             own.stiffness if section.stiffness is None else section.stiffness.values(),
             own.damping if section.damping is None else section.damping.values(),
         )
+        require_one_roll_damping(self.file.roll_damping, supplementary)
+        return supplementary
+
+    def roll_damping(self, database: HydroDatabase) -> RollDampingTerms | None:
+        """Roll damping of the run's model at its speed, with the natural roll that the coefficients give."""
+        model = self.file.run.model
+        return build_roll_damping(self.file.roll_damping, self.ship, database, speed=self.speed, model=model)
 
     def database(self, progress: Progress | None = None) -> HydroDatabase:
         """The hydrodynamic coefficients: from the case's file, stored before, or computed now."""
@@ -102,7 +118,7 @@ class Case:
 
     def warnings(self) -> list[str]:
         """What is allowed but unusual, one sentence each."""
-        warnings = list(ship_warnings(self.ship))
+        warnings = [*ship_warnings(self.ship), *roll_damping_warnings(self.file.roll_damping, self.ship)]
         seaway = self.seaway
         if seaway.components.count > MANY_COMPONENTS:
             warnings.append(

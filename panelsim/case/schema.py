@@ -106,6 +106,29 @@ class SupplementarySection(Section):
     damping: ByMotion | None = None
 
 
+class RollDampingSection(Section):
+    """[roll_damping]: damping of roll by viscosity and lift, and how it is found."""
+
+    method: Literal["none", "percent", "terms", "ikeda"] = "none"
+    critical_percent: Annotated[float, Field(ge=0, le=100)] | None = None
+    linear: NotNegative | None = None  # N m s
+    quadratic: NotNegative | None = None  # N m s2
+    cubic: NotNegative | None = None  # N m s3
+    linearised_at_deg: Annotated[float, Field(gt=0, le=90)] | None = None  # for the linear model
+
+    @model_validator(mode="after")
+    def _keys_of_the_method(self) -> "RollDampingSection":
+        own = {"percent": ("critical_percent",), "terms": ("linear", "quadratic", "cubic")}
+        wanted = own.get(self.method, ())
+        given = [name for keys in own.values() for name in keys if getattr(self, name) is not None]
+        strange = [name for name in given if name not in wanted]
+        if strange:
+            raise ValueError(f'{", ".join(strange)} has no meaning with method = "{self.method}"')
+        if wanted and not given:
+            raise ValueError(f'method = "{self.method}" needs {" or ".join(wanted)}')
+        return self
+
+
 class CaseFile(Section):
     """The whole file."""
 
@@ -114,6 +137,7 @@ class CaseFile(Section):
     seaway: SeawaySection
     run: RunSection
     supplementary: SupplementarySection = SupplementarySection()
+    roll_damping: RollDampingSection = RollDampingSection()
 
     @model_validator(mode="after")
     def _stokes(self) -> "CaseFile":

@@ -87,7 +87,12 @@ duration = 600                  # s, after the ramp
 ramp = 60                       # s over which the waves grow
 capsize_angle_deg = 90          # end the run there; 0 = never
 
-{_supplementary(form)}"""
+{_supplementary(form)}
+# Roll damping by viscosity, in place of one in [supplementary] (docs/roll_damping.md):
+# [roll_damping]
+# method = "percent"            # percent | terms | ikeda
+# critical_percent = 5
+"""
 
 
 def _grid(peak: float) -> str:

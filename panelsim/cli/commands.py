@@ -14,6 +14,8 @@ import panelsim
 from panelsim.case import Case
 from panelsim.case.ship_section import is_mesh_file
 from panelsim.case.template import case_template, hull_entry
+from panelsim.cli.decay import decay
+from panelsim.cli.options import EXIT_BAD_INPUT, EXIT_ENDED_EARLY, Force, Overrides
 from panelsim.cli.show import err, out, progress_bars, say, show_case, show_facts, show_result, warn
 from panelsim.cli.show_sea import show_sea
 from panelsim.errors import PanelsimError
@@ -32,20 +34,13 @@ from panelsim.ship.facts import ship_facts
 from panelsim.ship.ship import Ship
 from panelsim.studies.output_folder import make_output_folder, refuse_occupied_folder
 
-EXIT_BAD_INPUT = 2
-EXIT_ENDED_EARLY = 3
-
 app = typer.Typer(
     help="Nonlinear panel-method, time-domain ship-motion solver.",
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,  # it takes the "[m]" of a unit for markup
 )
-
-Force = Annotated[bool, typer.Option("--force", help="Replace files that panelsim writes.")]
-Overrides = Annotated[
-    list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Override, e.g. seaway.seed=7.")
-]
+app.command()(decay)
 
 
 def call() -> int:

@@ -149,6 +149,7 @@ def show_case(case: Case) -> None:
         "sea": _sea(case),
         "supplementary stiffness": _by_motion(case.supplementary.stiffness),
         "supplementary damping": _by_motion(case.supplementary.damping),
+        "roll damping": _roll_damping(case),
         "coefficients": source,
         "run": f"{run.model}, {run.speed_knots:g} knots, ramp {run.ramp:g} s and {run.duration:g} s,"
         f" {run.steps} {run.stepper} steps of {run.time_step:g} s",
@@ -181,6 +182,17 @@ def _headings(components: WaveComponents) -> str:
     mean = np.angle(np.sum(components.amplitude**2 * np.exp(1j * components.wave_heading)))
     heading = f"heading {np.rad2deg(mean) % 360.0:.4g}° (0° following, 180° head)"
     return f"mean {heading}" if np.ptp(components.wave_heading) else heading
+
+
+def _roll_damping(case: Case) -> str:
+    section = case.file.roll_damping
+    terms = section.model_dump(include={"linear", "quadratic", "cubic"}, exclude_none=True)
+    return {
+        "none": "none beside the supplementary one",
+        "percent": f"{section.critical_percent or 0.0:g} % of critical",
+        "terms": ", ".join(f"{name} {value:g}" for name, value in terms.items()) + " (N m s, s2, s3)",
+        "ikeda": f"Ikeda's components at {case.file.run.speed_knots:g} knots",
+    }[section.method]
 
 
 def _by_motion(values: Mapping[str, float]) -> str:

@@ -3,7 +3,7 @@
 import math
 import time as clock
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,8 +11,10 @@ import xarray as xr
 
 from panelsim.conventions import FloatArray
 from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.roll_damping.terms import RollDampingTerms
 from panelsim.loads.load import Load
 from panelsim.loads.radiation import Radiation
+from panelsim.loads.roll_damping import RollDamping, describe_terms
 from panelsim.loads.supplementary import Supplementary
 from panelsim.loads.wetted_surface import WettedSurface
 from panelsim.motion.equations import EquationsOfMotion, ramp_factor
@@ -30,12 +32,16 @@ from panelsim.ship.ship import Ship
 
 @dataclass(frozen=True)
 class Member:
-    """What a run has of its own: its waves, their kind, the speed [m/s], and the seed to remember."""
+    """What a run has of its own: its waves, their kind, the speed [m/s], the seed to remember, roll damping.
+
+    Either all members of a batch have a `roll_damping`, or none has.
+    """
 
     waves: WaveComponents
     seaway_kind: str
     speed: float
     seed: int | None
+    roll_damping: RollDampingTerms | None = None
 
 
 @dataclass(frozen=True)
@@ -138,6 +144,7 @@ class Batch:
                     np.array(member.waves.second_order),
                 ),
                 "pressure method": methods[i],
+                "roll damping": None if member.roll_damping is None else [*astuple(member.roll_damping)],
                 "initial displacement": displacement[i].tolist(),
                 "initial velocity": velocity[i].tolist(),
                 # Last: it goes with the ship and the speed, whose names say more.
@@ -153,6 +160,7 @@ class Batch:
 
     def _loads(self) -> RunLoads:
         """All loads but radiation."""
+        damping = [member.roll_damping for member in self.members if member.roll_damping is not None]
         return run_loads(
             self.ship,
             [member.waves for member in self.members],
@@ -163,6 +171,7 @@ class Batch:
             pressure_method=self.pressure_method,
             pressure_rule=self.pressure_rule,
             supplementary=self.supplementary,
+            roll_damping=RollDamping(damping) if damping else None,
         )
 
     def _equations(self, loads: Sequence[Load]) -> EquationsOfMotion:
@@ -232,7 +241,12 @@ class Batch:
             notes=[*self.notes, *notes],
             stepper=self.stepper,
             restart=restart,
+            roll_damping=_roll_damping(member),
         )
+
+
+def _roll_damping(member: Member) -> str:
+    return "none" if member.roll_damping is None else describe_terms(member.roll_damping)
 
 
 def wave_elevation(sea: TranslatingSeaway, time: FloatArray, wave_factor: FloatArray) -> FloatArray:

@@ -73,7 +73,7 @@ class _LinearSystem:
         radiation = equations.radiation
         loads = np.zeros((len(equations.load_names), 6, radiation.motion_size))
         for name, slope in known.slopes.items():
-            loads[equations.load_names.index(name), :, :12] = slope
+            loads[equations.load_names.index(name), :, :12] = slope if slope.ndim == 2 else slope[ship]
         loads[-1] = radiation.load_matrix[ship]
         acceleration = equations.inverse @ loads.sum(axis=0)
         loads[-1] -= radiation.added_mass_infinite @ acceleration

@@ -98,6 +98,7 @@ class History:
         notes: Sequence[str] = (),
         stepper: str = "none",
         restart: xr.Dataset | None = None,
+        roll_damping: str = "none",
     ) -> "History":
         """Gather what a run has computed, whole or cut short.
 
@@ -106,7 +107,8 @@ class History:
         `components` as the run had them; `pressure_method`, `pressure_rule` of the nonlinear load; `speed`
         [m/s]; `ramp` and `time_step` [s]; `case` JSON text; `cpu_seconds` of the time loop alone,
         compilation apart in `jit_seconds`; `notes` are sentences
-        that a reader of the report should see; `stepper` the scheme, `restart` what it takes to go on.
+        that a reader of the report should see; `stepper` the scheme, `restart` what it takes to go on,
+        `roll_damping` the terms in words.
         Raises PanelsimError for an unknown outcome and for arrays that do not fit together.
         """
         if outcome not in OUTCOMES:
@@ -120,6 +122,7 @@ class History:
             "outcome_detail": outcome_detail,
             "model": model,
             "stepper": stepper,
+            "roll_damping": roll_damping,
             "pressure_method": pressure_method,
             "pressure_rule": pressure_rule,
             "speed": float(speed),

@@ -10,10 +10,11 @@ from panelsim.conventions import ComplexArray, FloatArray
 class KnownLoads:
     """The linear part of the loads on a batch of ships, of which a scheme may make use.
 
-    `slopes`: by the name of a load its derivatives (6, 12) by displacement and velocity at rest; loads that
-    are not named are taken as constant. For each ship `turning` (3, M), what time, surge and sway add to
-    the phase of each wave [rad/s, rad/m], and `amplitudes` a X exp(iε) (6, M) [N, N m], of which the real
-    part is the Froude-Krylov and diffraction load on a ship that stands upright where she is.
+    `slopes`: by the name of a load its derivatives (6, 12) by displacement and velocity at rest, (B, 6, 12)
+    where they differ from ship to ship; loads that are not named are taken as constant. For each ship
+    `turning` (3, M), what time, surge and sway add to the phase of each wave [rad/s, rad/m], and `amplitudes`
+    a X exp(iε) (6, M) [N, N m], of which the real part is the Froude-Krylov and diffraction load on a ship
+    that stands upright where she is.
     """
 
     slopes: Mapping[str, FloatArray]

@@ -12,6 +12,7 @@ from panelsim.loads.froude_krylov import froude_krylov_transfer
 from panelsim.loads.linear_waves import LinearWaveLoad, wave_turning
 from panelsim.loads.load import Load
 from panelsim.loads.restoring import Restoring
+from panelsim.loads.roll_damping import RollDamping
 from panelsim.loads.supplementary import Supplementary
 from panelsim.loads.weight import Weight
 from panelsim.loads.wetted_surface import WettedSurface
@@ -38,6 +39,7 @@ def run_loads(
     pressure_method: str,
     pressure_rule: str,
     supplementary: Supplementary,
+    roll_damping: RollDamping | None,
 ) -> RunLoads:
     """Loads on a ship in one sea at one speed [m/s] for each run of the batch.
 
@@ -64,12 +66,14 @@ def run_loads(
         of_hull = [Weight(ship.mass, ship.gravity), wetted]
     else:
         of_hull = [Restoring(ship.hydrostatics.stiffness), wave_load("froude_krylov", incident)]
+    damping = [] if roll_damping is None else [roll_damping]
     by_velocity = np.zeros((6, 6))
     known = KnownLoads(
         slopes={
             of_hull[1 if nonlinear else 0].name: -np.hstack([ship.hydrostatics.stiffness, by_velocity]),
             supplementary.name: -np.hstack([supplementary.stiffness_matrix, supplementary.damping_matrix]),
-        },
+        }
+        | {load.name: load.slope for load in damping},
         turning=[
             wave_turning(sea, speed, gravity=ship.gravity, follows_ship=nonlinear)
             for sea, speed in zip(components, speeds, strict=True)
@@ -79,4 +83,4 @@ def run_loads(
             for first, second, sea in zip(incident, diffraction, components, strict=True)
         ],
     )
-    return RunLoads([*of_hull, wave_load("diffraction", diffraction), supplementary], known)
+    return RunLoads([*of_hull, wave_load("diffraction", diffraction), supplementary, *damping], known)

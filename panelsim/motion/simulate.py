@@ -9,7 +9,9 @@ from numpy.typing import ArrayLike
 from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.roll_damping.terms import RollDampingTerms
 from panelsim.loads.arguments import require_seaway
+from panelsim.loads.roll_damping import require_linear_terms
 from panelsim.loads.supplementary import Supplementary
 from panelsim.motion.batch import Batch, Member
 from panelsim.motion.history import History
@@ -44,6 +46,7 @@ def simulate(
     pressure_method: str = "auto",
     pressure_rule: str = "vertex+centre",
     supplementary: Supplementary | None = None,
+    roll_damping: RollDampingTerms | None = None,
     initial_displacement: Sequence[float] | FloatArray = (0.0,) * 6,
     initial_velocity: Sequence[float] | FloatArray = (0.0,) * 6,
     capsize_angle: float = np.pi / 2,
@@ -60,8 +63,9 @@ def simulate(
     surface, "linear" takes restoring and Froude-Krylov load about rest; radiation and diffraction are
     linear in both. `pressure_method` and `pressure_rule` are `method` and `rule` of `pressure_force`: how the
     waves are summed over the wetted surface, and where on a panel. `stepper` is "exponential" (one
-    evaluation of the loads a step), "rk4" (four, the reference) or "ab3" (one). The ship is held at
-    `initial_displacement` (6,) [m, rad] until t = 0.
+    evaluation of the loads a step), "rk4" (four, the reference) or "ab3" (one). `roll_damping` is that of
+    viscosity and lift, beside any that `supplementary` has; the linear model takes linear terms only.
+    The ship is held at `initial_displacement` (6,) [m, rad] until t = 0.
 
     The run ends early where |roll| exceeds `capsize_angle` [rad] (0 = never), where the motion
     diverges, or on an interrupt; `History.outcome` says which. `progress(done, total)` is told the
@@ -85,6 +89,7 @@ def simulate(
         pressure_method=pressure_method,
         pressure_rule=pressure_rule,
         supplementary=supplementary,
+        roll_damping=None if roll_damping is None else [roll_damping],
         initial_displacement=[initial_displacement],
         initial_velocity=[initial_velocity],
         capsize_angle=capsize_angle,
@@ -112,6 +117,7 @@ def simulate_batch(
     pressure_method: str = "auto",
     pressure_rule: str = "vertex+centre",
     supplementary: Supplementary | None = None,
+    roll_damping: RollDampingTerms | Sequence[RollDampingTerms] | None = None,
     initial_displacement: ArrayLike | Sequence[ArrayLike] = (0.0,) * 6,
     initial_velocity: ArrayLike | Sequence[ArrayLike] = (0.0,) * 6,
     capsize_angle: float = np.pi / 2,
@@ -125,17 +131,17 @@ def simulate_batch(
 
     Each history is that of `simulate` in the same sea, bit for bit; together they take less time. The seas
     may differ in all: kind, phases, heading, number of waves. Arguments as for `simulate`, but that `speed`
-    [m/s] may be one for each seaway, `initial_displacement` and `initial_velocity` may be (6,) or (B, 6), and
-    `seeds` has one for each seaway. A run that ends early leaves the others as they are; an interrupt ends
-    all, and all are kept. `cpu_seconds` and `jit_seconds` of a history are a share of those of the batch:
-    of the time loop by the steps of the run, of compilation and set-up an equal one. `resume` has one history
-    for each seaway, all cut at the same time.
+    [m/s] may be one for each seaway, and so may `roll_damping`; `initial_displacement` and
+    `initial_velocity` may be (6,) or (B, 6), and `seeds` has one for each seaway. A run that ends early
+    leaves the others as they are; an interrupt ends all, and all are kept. `cpu_seconds` and `jit_seconds`
+    of a history are a share of those of the batch: of the time loop by the steps of the run, of compilation
+    and set-up an equal one. `resume` has one history for each seaway, all cut at the same time.
 
     Raises PanelsimError for bad arguments, with the number of the member, and for a database of another ship.
     """
     require_types(ship, database, supplementary, notes, progress)
     kept_case = case_text(case)
-    members = _members(seaways, speed, seeds)
+    members = _members(seaways, speed, seeds, roll_damping, model)
     require_run(
         members=len(members),
         duration=duration,
@@ -187,19 +193,35 @@ def _histories(resume: object, members: int) -> list[History] | None:
     return histories
 
 
-def _members(seaways: object, speed: object, seeds: object) -> list[Member]:
-    """Checked seaways with their speeds [m/s] and seeds."""
+def _members(seaways: object, speed: object, seeds: object, roll_damping: object, model: str) -> list[Member]:
+    """Checked seaways with their speeds [m/s], seeds and roll damping."""
     seas = sequence_of("seaways", seaways)
     count = len(seas)
     speeds = sequence_of(
         "speeds", speed if is_iterable(speed) and not isinstance(speed, str) else [speed] * count, count
     )
     listed_seeds = sequence_of("seeds", [None] * count if seeds is None else seeds, count)
+    dampings = sequence_of(
+        "roll dampings", roll_damping if is_iterable(roll_damping) else [roll_damping] * count, count
+    )
     members = []
-    for i, (sea, own_speed, seed) in enumerate(zip(seas, speeds, listed_seeds, strict=True)):
+    for i, (sea, own_speed, seed, damping) in enumerate(
+        zip(seas, speeds, listed_seeds, dampings, strict=True)
+    ):
         with about_member(i, count):
             require_seaway(sea)
             require_speed(own_speed)
             require_seed(seed)
-        members.append(Member(sea.components, sea.kind, float(own_speed), seed))
+            if damping is not None or roll_damping is not None:
+                _require_roll_damping(damping, model)
+        members.append(Member(sea.components, sea.kind, float(own_speed), seed, damping))
     return members
+
+
+def _require_roll_damping(damping: object, model: str) -> None:
+    if not isinstance(damping, RollDampingTerms):
+        raise PanelsimError(
+            "The roll damping is of another kind", got=repr(damping)[:60], allowed="RollDampingTerms, or None"
+        )
+    if model == "linear":
+        require_linear_terms(damping)

@@ -109,6 +109,7 @@ def _facts(history: History) -> dict[str, str]:
         "time step": f"{attrs['time_step']:g} s",
         # Histories of panelsim 0.1 were all made with it.
         "stepper": str(attrs.get("stepper", "rk4")),
+        "roll damping": str(attrs.get("roll_damping", "none")),
         "seed": str(attrs.get("seed", "none")),
         "panelsim": str(attrs["panelsim_version"]),
     }

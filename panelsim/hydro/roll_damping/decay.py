@@ -1,6 +1,6 @@
 """Period and damping of roll from the record of a decay test."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,7 +26,8 @@ class RollDecay:
 
     `period` 2π/ω0 [s]; `linear` b1 [1/s] and `quadratic` b2 [1/rad], over the inertia with the added one;
     `offset` [rad] at time 0 and `trend` [rad/s] of the line; `residual` RMS of record less fit [rad];
-    `extremes` of the record that stand clear of its noise.
+    `extremes` of the record that stand clear of its noise; `fitted` (N,) [rad] the roll of this equation at
+    the times of the record.
     """
 
     period: float
@@ -36,6 +37,7 @@ class RollDecay:
     trend: float
     residual: float
     extremes: int
+    fitted: FloatArray = field(default_factory=lambda: np.zeros(0), repr=False, compare=False)
 
     @property
     def damping_ratio(self) -> float:
@@ -106,6 +108,7 @@ def fit_roll_decay(time: ArrayLike, roll: ArrayLike) -> RollDecay:
         trend=trend,
         residual=float(np.sqrt(np.mean(fit.fun**2))),
         extremes=start.extremes,
+        fitted=roll + fit.fun,
     )
 
 

@@ -52,7 +52,11 @@ class ImmersedSections:
 
     @classmethod
     def of_lines(cls, lines: HullLines, draft: float) -> Self:
-        """The sections of a hull's offsets that reach below the level waterline at `draft` [m]."""
+        """The sections of a hull's offsets that reach below the level waterline at `draft` [m].
+
+        Those of a bulb, with more area than their beam at the waterline times draft, have no Lewis form and
+        are left out.
+        """
         draft = require_positive("The draft", draft, "m")
         rows = []
         for section in lines.sections:
@@ -60,7 +64,9 @@ class ImmersedSections:
             if len(wet) > 1 and wet[0, 2] < draft and wet[-1, 1] > 0.0:
                 # Twice the half-breadth over the height; a flat bottom adds nothing.
                 area = 2.0 * np.trapezoid(wet[:, 1], wet[:, 2])
-                rows.append((wet[0, 0], 2.0 * wet[-1, 1], draft - wet[0, 2], area))
+                beam, depth = 2.0 * wet[-1, 1], draft - wet[0, 2]
+                if area <= beam * depth:
+                    rows.append((wet[0, 0], beam, depth, area))
         return cls(*np.array(rows).reshape(-1, 4).T)
 
     @property

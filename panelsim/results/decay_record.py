@@ -1,0 +1,67 @@
+"""The record of a roll decay: from a history of a run, or from a CSV file of a model test."""
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from panelsim.conventions import Dof, FloatArray
+from panelsim.errors import PanelsimError
+from panelsim.motion.history import History
+
+TIME_COLUMN = "time [s]"
+# What a column of roll is called, and the radians in its unit; the last is that of `panelsim export`.
+ROLL_COLUMNS = {"roll [deg]": np.pi / 180.0, "roll [rad]": 1.0, "displacement_roll [rad]": 1.0}
+
+
+@dataclass(frozen=True, eq=False)
+class DecayRecord:
+    """Roll from its release on: `time` (N,) [s] and `roll` (N,) [rad]."""
+
+    time: FloatArray
+    roll: FloatArray
+
+    @classmethod
+    def of_history(cls, history: History) -> "DecayRecord":
+        """The roll of a run; raises PanelsimError for a run in waves, which is no free decay."""
+        if history.components.count:
+            raise PanelsimError(
+                "A roll decay is one in calm water",
+                got=f"a history in {history.components.count} wave component(s)",
+                remedy="run it with seaway.kind = calm and an initial heel, or give the case file itself",
+            )
+        rows = history.finite
+        return cls(history.time[rows], history.displacement[rows, Dof.ROLL])
+
+    @classmethod
+    def read_csv(cls, path: Path) -> "DecayRecord":
+        """Read the columns "time [s]" and "roll [deg]" or "roll [rad]"; others may stand beside them.
+
+        Raises PanelsimError that names the columns, or the line that holds no numbers.
+        """
+        try:
+            rows = list(csv.reader(path.read_text(encoding="utf-8-sig").splitlines()))
+        except UnicodeDecodeError as error:
+            raise PanelsimError("The decay record is not text in UTF-8", got=path) from error
+        heads = [head.strip() for head in rows[0]] if rows else []
+        known = [name for name in ROLL_COLUMNS if name in heads]
+        if TIME_COLUMN not in heads or len(known) != 1:
+            raise PanelsimError(
+                "The decay record does not begin with the names of its columns",
+                got=", ".join(heads)[:200] or "an empty file",
+                allowed=f"{TIME_COLUMN}, and one of {', '.join(ROLL_COLUMNS)}",
+            )
+        places = heads.index(TIME_COLUMN), heads.index(known[0])
+        numbers = np.array([_numbers(path, i, row, places) for i, row in enumerate(rows[1:], 2) if row])
+        time, roll = numbers.reshape(-1, 2).T
+        return cls(time, ROLL_COLUMNS[known[0]] * roll)
+
+
+def _numbers(path: Path, line: int, row: list[str], places: tuple[int, int]) -> list[float]:
+    try:
+        return [float(row[place]) for place in places]
+    except (ValueError, IndexError):
+        raise PanelsimError(
+            f"{path}, line {line} holds no time and roll", got=",".join(row)[:100], allowed="numbers"
+        ) from None
