@@ -38,6 +38,7 @@ def simulate(
     time_step: float,
     database: HydroDatabase,
     model: str = "nonlinear",
+    inertia: str | None = None,
     stepper: str = "exponential",
     ramp: float = 60.0,
     stretching: str = "wheeler",
@@ -58,7 +59,8 @@ def simulate(
     `speed` [m/s]; `duration` [s] after a `ramp` [s] over which the waves grow by ½(1 − cos(π t/ramp));
     `time_step` [s]; `model` "nonlinear" integrates the pressure over the instantaneous wetted
     surface, "linear" takes restoring and Froude-Krylov load about rest; radiation and diffraction are
-    linear in both. `pressure_method` and `pressure_rule` are `method` and `rule` of `pressure_force`: how the
+    linear in both. `inertia` "large" turns with the ship and has the gyroscopic terms, "linear" is that of
+    small angles; by default each model has its own, and the linear model has no other. `pressure_method` and `pressure_rule` are `method` and `rule` of `pressure_force`: how the
     waves are summed over the wetted surface, and where on a panel. `stepper` is "exponential" (one
     evaluation of the loads a step), "rk4" (four, the reference) or "ab3" (one). The ship is held at
     `initial_displacement` (6,) [m, rad] until t = 0.
@@ -79,6 +81,7 @@ def simulate(
         time_step=time_step,
         database=database,
         model=model,
+        inertia=inertia,
         stepper=stepper,
         ramp=ramp,
         stretching=stretching,
@@ -106,6 +109,7 @@ def simulate_batch(
     time_step: float,
     database: HydroDatabase,
     model: str = "nonlinear",
+    inertia: str | None = None,
     stepper: str = "exponential",
     ramp: float = 60.0,
     stretching: str = "wheeler",
@@ -143,6 +147,7 @@ def simulate_batch(
         ramp=ramp,
         capsize_angle=capsize_angle,
         model=model,
+        inertia=inertia,
         stepper=stepper,
         stretching=stretching,
         pressure_method=pressure_method,
@@ -162,6 +167,7 @@ def simulate_batch(
         time_step=time_step,
         ramp=ramp,
         model=model,
+        inertia=inertia or ("large" if model == "nonlinear" else "linear"),
         stepper=stepper,
         stretching=stretching,
         pressure_method=pressure_method,
