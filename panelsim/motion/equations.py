@@ -69,8 +69,7 @@ class EquationsOfMotion:
     ) -> tuple[FloatArray, FloatArray]:
         """Accelerations and inertial loads (B, 6): (M(η) + A∞) η̈ = Σ loads − c, all loads but the last two
         ready, radiation without its −A∞ η̈."""
-        inertia = body.inertia(instant.displacement)
-        gyroscopic = body.gyroscopic(instant.displacement, instant.velocity)
+        inertia, gyroscopic = body.terms(instant.displacement, instant.velocity)
         forces = loads[:, :-2].sum(axis=1) + loads[:, -1] - gyroscopic
         whole = inertia + self.radiation.added_mass_infinite
         acceleration = np.linalg.solve(whole, forces[..., None])[..., 0]
