@@ -152,7 +152,7 @@ def test_a_quaternion_turns_as_the_angles_do(roll_pitch_yaw: tuple[float, float,
 
 @pytest.fixture(scope="module")
 def tumbling() -> FreeRotation:
-    """100 turns and more of a body that is thrown up about its axis of intermediate inertia, as a racket is."""
+    """100 turns and more of a body that is thrown up about its middle axis of inertia, as a racket is."""
     return rotate_freely(
         np.array([1.0, 2.0, 3.0]),
         attitude_of(0.5, -0.8, 2.0),

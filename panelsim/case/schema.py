@@ -76,7 +76,9 @@ class RunSection(Section):
     @model_validator(mode="after")
     def _inertia(self) -> "RunSection":
         if self.model == "linear" and self.inertia == "large":
-            raise ValueError('the linear model has the inertia of small angles: inertia = "linear", or leave it out')
+            raise ValueError(
+                'the linear model has the inertia of small angles: inertia = "linear", or leave it out'
+            )
         return self
 
     @model_validator(mode="after")

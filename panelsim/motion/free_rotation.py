@@ -44,7 +44,7 @@ def rotate_freely(
     q = _numbers("attitude", attitude, 4)
     spin = _numbers("angular velocity", angular_velocity, 3)
     _require(bool((inertia > 0.0).all()), "moments of inertia are", inertia, "positive numbers [kg m²]")
-    _require(abs(q @ q - 1.0) < 1e-9, "attitude is", q, "a quaternion of unit length, scalar first")
+    _require(abs(float(q @ q) - 1.0) < 1e-9, "attitude is", q, "a quaternion of unit length, scalar first")
     _require(bool(np.isfinite(time_step)) and time_step > 0.0, "time step is", time_step, "more than 0 s")
     _require(isinstance(steps, int) and steps >= 1, "number of steps is", steps, "a whole number from 1")
     momentum = to_earth(q, inertia * spin)
@@ -70,7 +70,7 @@ def rotate_freely(
         q = q / np.sqrt(q @ q)
         attitudes[step + 1] = q
     spins = to_ship(attitudes, momentum) / inertia
-    time = time_step * np.arange(steps + 1)
+    time = time_step * np.arange(steps + 1, dtype=np.float64)
     for array in (time, attitudes, spins):
         array.setflags(write=False)
     return FreeRotation(time, attitudes, spins)

@@ -60,10 +60,11 @@ def simulate(
     `time_step` [s]; `model` "nonlinear" integrates the pressure over the instantaneous wetted
     surface, "linear" takes restoring and Froude-Krylov load about rest; radiation and diffraction are
     linear in both. `inertia` "large" turns with the ship and has the gyroscopic terms, "linear" is that of
-    small angles; by default each model has its own, and the linear model has no other. `pressure_method` and `pressure_rule` are `method` and `rule` of `pressure_force`: how the
-    waves are summed over the wetted surface, and where on a panel. `stepper` is "exponential" (one
-    evaluation of the loads a step), "rk4" (four, the reference) or "ab3" (one). The ship is held at
-    `initial_displacement` (6,) [m, rad] until t = 0.
+    small angles; by default each model has its own, and the linear model has no other. `pressure_method`
+    and `pressure_rule` are `method` and `rule` of `pressure_force`: how the waves are summed over the
+    wetted surface, and where on a panel. `stepper` is "exponential" (one evaluation of the loads a step),
+    "rk4" (four, the reference) or "ab3" (one). The ship is held at `initial_displacement` (6,) [m, rad]
+    until t = 0.
 
     The run ends early where |roll| exceeds `capsize_angle` [rad] (0 = never), where the motion
     diverges, or on an interrupt; `History.outcome` says which. `progress(done, total)` is told the
