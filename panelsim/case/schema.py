@@ -64,6 +64,7 @@ class RunSection(Section):
     speed_knots: Annotated[float, Field(ge=0, le=60)]
     ship_heading_deg: Degrees | None = None
     model: Literal["nonlinear", "linear"] = "nonlinear"
+    inertia: Literal["large", "linear"] | None = None  # by default that of the model
     stepper: Literal["exponential", "rk4", "ab3"] = "exponential"
     time_step: Annotated[float, Field(ge=1e-4, le=5)]  # s
     duration: Annotated[float, Field(gt=0, le=1e6)]  # s, after the ramp
@@ -71,6 +72,14 @@ class RunSection(Section):
     capsize_angle_deg: Annotated[float, Field(ge=0, le=180)] = 90.0
     pressure_method: Literal["auto", "direct", "grid", "oracle"] = "auto"
     pressure_rule: Literal["vertex+centre", "vertex", "panel"] = "vertex+centre"
+
+    @model_validator(mode="after")
+    def _inertia(self) -> "RunSection":
+        if self.model == "linear" and self.inertia == "large":
+            raise ValueError(
+                'the linear model has the inertia of small angles: inertia = "linear", or leave it out'
+            )
+        return self
 
     @model_validator(mode="after")
     def _steps(self) -> "RunSection":

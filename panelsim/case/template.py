@@ -81,6 +81,7 @@ seed = 1
 [run]
 speed_knots = {speed:g}
 model = "nonlinear"             # nonlinear | linear
+# inertia = "linear"            # with the nonlinear model: that of small angles, as in TM 2003-190
 stepper = "exponential"         # exponential | rk4 | ab3: see docs/time_stepping.md
 time_step = {float(f"{0.4 / scale:.1g}"):g}                 # s
 duration = 600                  # s, after the ramp

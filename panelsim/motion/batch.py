@@ -56,6 +56,7 @@ class Batch:
     time_step: float
     ramp: float
     model: str
+    inertia: str
     stepper: str
     stretching: str
     pressure_method: str
@@ -123,6 +124,7 @@ class Batch:
             "ship": digest(ship.vertices, ship.mesh.panels, ship.inertia, np.array(ship.waterline)),
             "water": [ship.water_density, ship.gravity],
             "model": self.model,
+            "inertia": self.inertia,
             "stepper": self.stepper,
             "time step": self.time_step,
             "ramp": self.ramp,
@@ -189,7 +191,9 @@ class Batch:
             encounter = member.waves.encounter_frequency(member.speed, ship.gravity)
             with about_member(i, len(members)):
                 require_step_for_waves(self.time_step, member.waves, encounter)
-        return EquationsOfMotion(ship.inertia, loads, radiation, self.ramp)
+        return EquationsOfMotion(
+            ship.inertia, loads, radiation, self.ramp, large_angles=self.inertia == "large"
+        )
 
     def _history(
         self,

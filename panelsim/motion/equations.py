@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from panelsim.conventions import FloatArray
 from panelsim.loads.load import Instant, Load, times_each
 from panelsim.loads.radiation import Radiation
+from panelsim.motion.rigid_body import RigidBody
 
 BoolArray = NDArray[np.bool_]
 
@@ -16,19 +17,28 @@ BoolArray = NDArray[np.bool_]
 class EquationsOfMotion:
     """M η̈ = Σ loads in translating earth axes, with M the inertia (6, 6) at rest about the CG.
 
-    For a batch of runs of one ship. As in TM 2003-190, M is constant: the gyroscopic terms of large
-    angles are left out. A motion (B, 12 + n) is displacement, velocity and the memory of the radiated waves;
-    the wave amplitudes grow over `ramp` [s].
+    For a batch of runs of one ship. A motion (B, 12 + n) is displacement, velocity and the memory of the
+    radiated waves; the wave amplitudes grow over `ramp` [s]. M is constant, as in TM 2003-190; with
+    `large_angles` what a turned and turning ship adds is a load, `inertial`: M η̈ − M(η) η̈ − c(η, η̇) with M(η)
+    and c of `RigidBody`.
     """
 
     def __init__(
-        self, inertia: FloatArray, loads: Sequence[Load], radiation: Radiation, ramp: float = 0.0
+        self,
+        inertia: FloatArray,
+        loads: Sequence[Load],
+        radiation: Radiation,
+        ramp: float = 0.0,
+        *,
+        large_angles: bool = False,
     ) -> None:
         self.loads = tuple(loads)
+        self.body = RigidBody(inertia) if large_angles else None
         self.radiation = radiation
         self.ramp = ramp
         self.inverse = np.asarray(np.linalg.inv(inertia + radiation.added_mass_infinite), dtype=float)
-        self.load_names = (*(load.name for load in self.loads), radiation.name)
+        inertial = ("inertial",) if large_angles else ()
+        self.load_names = (*(load.name for load in self.loads), *inertial, radiation.name)
 
     def start(self, displacement: FloatArray, velocity: FloatArray) -> FloatArray:
         """Motions of ships held at displacements (B, 6) until t = 0, then let go at velocities (B, 6)."""
@@ -47,9 +57,23 @@ class EquationsOfMotion:
         for i, load in enumerate(self.loads):
             loads[:, i] = load.evaluate(instant)
         loads[:, -1] = self.radiation.evaluate(motion)
-        acceleration = times_each(self.inverse, loads.sum(axis=1))
+        if self.body is None:
+            acceleration = times_each(self.inverse, loads.sum(axis=1))
+        else:
+            acceleration, loads[:, -2] = self._of_turned(self.body, instant, loads)
         loads[:, -1] -= times_each(self.radiation.added_mass_infinite, acceleration)
         return acceleration, loads
+
+    def _of_turned(
+        self, body: RigidBody, instant: Instant, loads: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Accelerations and inertial loads (B, 6): (M(η) + A∞) η̈ = Σ loads − c, all loads but the last two
+        ready, radiation without its −A∞ η̈."""
+        inertia, gyroscopic = body.terms(instant.displacement, instant.velocity)
+        forces = loads[:, :-2].sum(axis=1) + loads[:, -1] - gyroscopic
+        whole = inertia + self.radiation.added_mass_infinite
+        acceleration = np.linalg.solve(whole, forces[..., None])[..., 0]
+        return acceleration, times_each(body.at_rest - inertia, acceleration) - gyroscopic
 
     def rate(self, motion: FloatArray, acceleration: FloatArray) -> FloatArray:
         """Rate (B, 12 + n) of a motion with these accelerations (B, 6)."""

@@ -16,6 +16,7 @@ from panelsim.seaway.checks import is_number
 from panelsim.seaway.components import WaveComponents
 
 MODELS = ("nonlinear", "linear")
+INERTIAS = ("large", "linear")
 MOST_STEPS = 2_000_000  # a run keeps some 600 bytes a step, 1000 while its history is made
 # The longest step of each scheme over the highest natural frequency of the ship. RK4 stays stable to
 # ω dt = 2.83, but at 2 it takes a quarter off a motion with every step; AB3 is stable to 0.72. The
@@ -53,6 +54,7 @@ def require_run(
     ramp: float,
     capsize_angle: float,
     model: str,
+    inertia: str | None,
     stepper: str,
     stretching: str,
     pressure_method: str,
@@ -67,6 +69,14 @@ def require_run(
         ("pressure rule", pressure_rule, RULES),
     ):
         require_word(name, word, known)
+    if inertia is not None:
+        require_word("inertia", inertia, INERTIAS)
+    if (model, inertia) == ("linear", "large"):
+        raise PanelsimError(
+            "The linear model has the inertia of small angles",
+            got=f'inertia "{inertia}"',
+            allowed='"linear", or none given',
+        )
     bounds = {
         "time_step": (time_step, 1e-4, 5.0, "s"),
         "duration": (duration, time_step, 1e6, "s"),

@@ -40,6 +40,7 @@ def simulate(
     time_step: float,
     database: HydroDatabase,
     model: str = "nonlinear",
+    inertia: str | None = None,
     stepper: str = "exponential",
     ramp: float = 60.0,
     stretching: str = "wheeler",
@@ -61,11 +62,13 @@ def simulate(
     `speed` [m/s]; `duration` [s] after a `ramp` [s] over which the waves grow by ½(1 − cos(π t/ramp));
     `time_step` [s]; `model` "nonlinear" integrates the pressure over the instantaneous wetted
     surface, "linear" takes restoring and Froude-Krylov load about rest; radiation and diffraction are
-    linear in both. `pressure_method` and `pressure_rule` are `method` and `rule` of `pressure_force`: how the
-    waves are summed over the wetted surface, and where on a panel. `stepper` is "exponential" (one
-    evaluation of the loads a step), "rk4" (four, the reference) or "ab3" (one). `roll_damping` is that of
-    viscosity and lift, beside any that `supplementary` has; the linear model takes linear terms only.
-    The ship is held at `initial_displacement` (6,) [m, rad] until t = 0.
+    linear in both. `inertia` "large" turns with the ship and has the gyroscopic terms, "linear" is that of
+    small angles; by default each model has its own, and the linear model has no other. `pressure_method`
+    and `pressure_rule` are `method` and `rule` of `pressure_force`: how the waves are summed over the
+    wetted surface, and where on a panel. `stepper` is "exponential" (one evaluation of the loads a step),
+    "rk4" (four, the reference) or "ab3" (one). `roll_damping` is that of viscosity and lift, beside any that
+    `supplementary` has; the linear model takes linear terms only. The ship is held at
+    `initial_displacement` (6,) [m, rad] until t = 0.
 
     The run ends early where |roll| exceeds `capsize_angle` [rad] (0 = never), where the motion
     diverges, or on an interrupt; `History.outcome` says which. `progress(done, total)` is told the
@@ -83,6 +86,7 @@ def simulate(
         time_step=time_step,
         database=database,
         model=model,
+        inertia=inertia,
         stepper=stepper,
         ramp=ramp,
         stretching=stretching,
@@ -111,6 +115,7 @@ def simulate_batch(
     time_step: float,
     database: HydroDatabase,
     model: str = "nonlinear",
+    inertia: str | None = None,
     stepper: str = "exponential",
     ramp: float = 60.0,
     stretching: str = "wheeler",
@@ -149,6 +154,7 @@ def simulate_batch(
         ramp=ramp,
         capsize_angle=capsize_angle,
         model=model,
+        inertia=inertia,
         stepper=stepper,
         stretching=stretching,
         pressure_method=pressure_method,
@@ -168,6 +174,7 @@ def simulate_batch(
         time_step=time_step,
         ramp=ramp,
         model=model,
+        inertia=inertia or ("large" if model == "nonlinear" else "linear"),
         stepper=stepper,
         stretching=stretching,
         pressure_method=pressure_method,

@@ -82,6 +82,7 @@ def _run_into(
             time_step=run.time_step,
             database=database,
             model=run.model,
+            inertia=run.inertia,
             stepper=run.stepper,
             ramp=run.ramp,
             stretching=case.file.seaway.stretching,
