@@ -177,10 +177,10 @@ def test_short_waves_do_not_move_the_ship_and_resonance_does(table: Response) ->
 def test_the_linear_time_domain_gives_the_same_motions(
     halifax: Ship, halifax_database: HydroDatabase, springs: Supplementary
 ) -> None:
-    """Amplitude and phase within 2 % of each mode's peak (roll 3 %) at dt 0.1 s, wave by wave.
+    """Amplitude and phase within 0.5 % of each mode's peak at dt 0.1 s, wave by wave.
 
     All waves of a heading in one run, whose encounter frequencies a record of 240 s tells apart; at 30° and
-    20 knots the ship overtakes the wave of 1.2 rad/s. The largest difference measured is 0.8 %.
+    20 knots the ship overtakes the wave of 1.2 rad/s. Measured: 0.16 % of the peak, in pitch, at most.
     """
     waves = {180: [0.35, 0.55, 0.8], 120: [0.4, 0.6, 0.85], 90: [0.4, 0.6, 0.85], 30: [0.35, 0.9, 1.2]}
     cases = [(knots * KNOT, degrees) for knots in (0, 10, 20) for degrees in waves]
@@ -225,7 +225,7 @@ def test_the_linear_time_domain_gives_the_same_motions(
         peak = np.abs(scan.transfer[list(SPEEDS).index(speed)]).max(axis=(0, 1))
         worst = np.maximum(worst, (np.abs(in_time - at.transfer[0, 0]) / peak).max(axis=0))
     print(np.round(100 * worst, 2))
-    assert np.all(worst < [0.02, 0.02, 0.02, 0.03, 0.02, 0.02])
+    assert np.all(worst < 0.005)
 
 
 def test_linear_roll_damping_is_that_of_a_supplementary_one(

@@ -17,6 +17,7 @@ from panelsim.ship.ship import Ship
 
 _MODES = (Dof.HEAVE, Dof.ROLL, Dof.PITCH)
 _TOLERANCE = 1e-8  # of the frequency
+_LEAST_SHARE = 0.1  # of the kinetic energy that a motion has in its own mode
 _MOST_STEPS = 200
 
 
@@ -116,8 +117,9 @@ def _root(linear: LinearShip, dof: Dof, omega: float, roll_damping: float) -> co
     oscillating = roots.imag > 1e-3 * omega
     if not oscillating.any():
         return None
-    energy = _shares(vectors[:6, oscillating], mass)
-    return complex(roots[oscillating][np.argmax(energy[dof])])
+    share = _shares(vectors[:6, oscillating], mass)[dof]
+    mode = int(np.argmax(share))
+    return complex(roots[oscillating][mode]) if share[mode] > _LEAST_SHARE else None
 
 
 def _shares(shapes: ComplexArray, mass: FloatArray) -> FloatArray:

@@ -17,10 +17,13 @@ from panelsim.seaway.spectra.point_spectrum import PointSpectrum
 
 # Shares of the energy that are left out below and above.
 _TAILS = (1e-5, 2e-3)
-# Of the frequency. A resonance in roll of 2 % of critical damping is integrated to 0.1 %.
-_BAND = 0.015
-# Directions around the ship, as many as a spread takes to carry its energy.
+# Of the frequency. Measured on a frigate up to 20 knots, against bands and directions five times as narrow:
+# roll of 9 % of critical damping is within 0.2 %, of 1.5 % within 1 %, the other motions within 0.1 %.
+_BAND = 0.012
+# Directions around the ship, as many as a spread takes to carry its energy. Those of one frequency lie
+# between those of the next: a resonance is a narrow ridge across both, and is met more evenly so.
 _RINGS = (36, 72, 144, 288, 720)
+_GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 _CARRIED = 2e-3
 _LEAST_ENERGY = 0.9
 
@@ -83,12 +86,12 @@ def waves_of_directions(
     """
     omega, width, share = _bands(spectrum.point, reach)
     expected = float(np.sum(spectrum.point.density(omega) * width))
+    turn = np.mod(_GOLDEN * np.arange(len(omega)), 1.0)
     for count in _RINGS:
-        ring = 2.0 * np.pi / count * np.arange(count)
+        heading = 2.0 * np.pi / count * (np.arange(count)[:, None] + turn)
         # At β = ν + π - χ a ship on the course χ meets the waves that come from ν.
-        direction = np.mod(ring - np.pi + ship_headings[:, None], 2.0 * np.pi)
-        density = spectrum.density(omega, direction[..., None])
-        variance = density * width * (2.0 * np.pi / count)
+        direction = np.mod(heading - np.pi + ship_headings[:, None, None], 2.0 * np.pi)
+        variance = spectrum.density(omega, direction) * width * (2.0 * np.pi / count)
         carried = variance.sum(axis=(1, 2)) / expected
         if np.abs(carried - 1.0).max() < _CARRIED:
             break
@@ -101,7 +104,7 @@ def waves_of_directions(
     used = np.flatnonzero(variance.any(axis=0).ravel())
     return SeaWaves(
         np.tile(omega, count)[used],
-        np.repeat(ring, len(omega))[used],
+        heading.ravel()[used],
         tuple((np.arange(len(used)), of_course.ravel()[used]) for of_course in variance),
         spectral=True,
         energy_share=share,
