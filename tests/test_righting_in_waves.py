@@ -149,6 +149,13 @@ class TestRefusals:
         found = righting_arm_in_wave(ship, HEELS[:3], wave, pressure="hydrostatic")
         assert 0.0 < found.heave[0] < 10.0  # its displaced water weighs what it does in calm water
 
+    def test_a_ship_that_would_float_only_deep_below_the_crest(self) -> None:
+        """There the wave has decayed, and 8 % of reserve are enough; at the surface they are too few."""
+        with pytest.raises(
+            PanelsimError, match=r"(?s)sinks on this wave.*a balance only [\d.]+ m under water"
+        ):
+            righting_arm_in_wave(box_ship(depth=2.16), HEELS, FrozenWave(100.0, 14.0))
+
     @pytest.mark.parametrize(
         ("wave", "message"),
         [
