@@ -24,6 +24,8 @@ _HOMES = {
     "equilibrium": "hull.equilibrium",
     "Ship": "ship.ship",
     "load_ship": "ship.bundled",
+    "righting_arm": "ship.righting",
+    "RightingArms": "ship.righting_arms",
     "Bretschneider": "seaway.spectra.bretschneider",
     "buckley_height": "seaway.climate.limits",
     "ScatterTable": "seaway.climate.scatter",
@@ -84,6 +86,8 @@ _HOMES = {
     "report": "view.report",
     "record": "view.recording",
     "Case": "case",
+    "FrozenWave": "studies.righting",
+    "righting_arm_in_wave": "studies.righting",
 }
 __all__ = sorted(_HOMES)
 
@@ -160,7 +164,11 @@ if TYPE_CHECKING:
     from panelsim.seaway.spectra.table import read_table_spectrum as read_table_spectrum
     from panelsim.seaway.translating import TranslatingSeaway as TranslatingSeaway
     from panelsim.ship.bundled import load_ship as load_ship
+    from panelsim.ship.righting import righting_arm as righting_arm
+    from panelsim.ship.righting_arms import RightingArms as RightingArms
     from panelsim.ship.ship import Ship as Ship
+    from panelsim.studies.righting import FrozenWave as FrozenWave
+    from panelsim.studies.righting import righting_arm_in_wave as righting_arm_in_wave
     from panelsim.view.recording import record as record
     from panelsim.view.report import report as report
 

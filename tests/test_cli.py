@@ -139,7 +139,7 @@ def test_what_python_gives_up_on_is_one_message(
     def fails(*_: object) -> None:
         raise error
 
-    monkeypatch.setattr(commands, "load_ship", fails)
+    monkeypatch.setattr("panelsim.cli.arguments.load_ship", fails)
     refused(call("hull", "box"), words)
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from panelsim.conventions import rotation_to_earth
 from panelsim.errors import PanelsimError
-from panelsim.hull.equilibrium import draft_of_mass, equilibrium, righting_arm
+from panelsim.hull.equilibrium import draft_of_mass, equilibrium
 from panelsim.hull.hydrostatics import hydrostatics
 from panelsim.hull.immersed import immersed_part
 from panelsim.hull.panel_mesh import PanelMesh
@@ -245,30 +245,6 @@ def test_equilibrium_refuses_what_cannot_float(changes, message):
     loading = {"mass": RHO * 20.0 * 8.0, "center_of_gravity": (0.0, 0.0, 1.0), "initial_draft": 1.0}
     with pytest.raises(PanelsimError, match=message):
         equilibrium(box(), **(loading | changes))
-
-
-@pytest.mark.parametrize("heel_deg", [-20.0, 5.0, 20.0])
-def test_righting_arm_of_a_box_is_the_wall_sided_formula(heel_deg):
-    heel, beam, draft, kg = np.radians(heel_deg), 4.0, 1.0, 1.0
-    found = righting_arm(
-        box(10.0, beam, 2.0), heel, mass=RHO * 10.0 * beam * draft, center_of_gravity=(0, 0, kg)
-    )
-    bm = beam**2 / (12.0 * draft)
-    gz = np.sin(heel) * (draft / 2 + bm - kg + 0.5 * bm * np.tan(heel) ** 2)
-    assert found == pytest.approx(gz, rel=1e-8)  # the balance of 1e-10 over a lever of a few hundredths
-
-
-def test_righting_arm_of_a_box_with_its_deck_in_the_water_and_capsized():
-    def arm(degrees):
-        mesh = box(10.0, 4.0, 2.0)
-        return righting_arm(
-            mesh, np.radians(degrees), mass=RHO * 40.0, center_of_gravity=(0, 0, 1.0), water_density=RHO
-        )
-
-    # Exact trapezoid of the box section, B 4, D 2, T 1, KG 1 m, at 30 degrees: closed form, six digits.
-    assert arm(30.0) == pytest.approx(0.505181, abs=1e-6)
-    assert arm(90.0) == pytest.approx(0.0, abs=1e-9)  # half immersed on its side, CG at its centre
-    assert arm(120.0) == pytest.approx(-arm(60.0), rel=1e-8)  # the box is the same upside down
 
 
 def test_panels_above_the_water_change_nothing():

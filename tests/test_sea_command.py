@@ -218,6 +218,7 @@ def test_notes_tell_of_a_sea_that_repeats_for_the_ship_not_for_a_buoy(
             springs,
             speed=speed,
             time_step=0.2,
+            stepper="rk4",
             length=900.0,
             model="linear",
         )
@@ -238,6 +239,7 @@ def test_a_record_has_no_other_phases(
                 springs,
                 speed=SPEED,
                 time_step=0.2,
+                stepper="rk4",
                 length=900.0,
                 model="linear",
                 seeded=seeded,

@@ -14,8 +14,10 @@ import panelsim
 from panelsim.case import Case
 from panelsim.case.ship_section import is_mesh_file
 from panelsim.case.template import case_template, hull_entry
+from panelsim.cli.arguments import refuse_existing, require_suffix, ship_of
 from panelsim.cli.decay import decay
 from panelsim.cli.options import EXIT_BAD_INPUT, EXIT_ENDED_EARLY, Force, Overrides
+from panelsim.cli.righting import righting
 from panelsim.cli.show import err, out, progress_bars, say, show_case, show_facts, show_result, warn
 from panelsim.cli.show_sea import show_sea
 from panelsim.errors import PanelsimError
@@ -23,15 +25,12 @@ from panelsim.files import replacing
 from panelsim.hull.checks import check_mesh, require_sound
 from panelsim.hull.export import require_mesh_target
 from panelsim.hull.form import load_hull
-from panelsim.hull.particulars import FILE_NAME
 from panelsim.hull.readers import SUFFIXES, read_mesh
 from panelsim.hydro.database import HydroDatabase
 from panelsim.motion.history import History
 from panelsim.results.export import CSV_FILES, history_to_csv
 from panelsim.seaway.exchange.components_csv import write_components
-from panelsim.ship.bundled import load_ship
 from panelsim.ship.facts import ship_facts
-from panelsim.ship.ship import Ship
 from panelsim.studies.output_folder import make_output_folder, refuse_occupied_folder
 
 app = typer.Typer(
@@ -64,14 +63,6 @@ def call() -> int:
 def _refuse(message: str) -> int:
     err.print(f"error: {message}")
     return EXIT_BAD_INPUT
-
-
-def _refuse_existing(path: Path, force: bool) -> None:
-    """Raise PanelsimError for a file that is there and may not be replaced, and for a folder."""
-    if path.is_dir():
-        raise PanelsimError("The output is a folder", got=path, allowed="the name of a file")
-    if path.exists() and not force:
-        raise PanelsimError("The file exists already", got=path, remedy="use --force to replace it")
 
 
 def _version(wanted: bool) -> None:
@@ -254,15 +245,25 @@ def hull(
     panel_area: Annotated[float | None, typer.Option(help="Nominal panel area [m2].")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     export: Annotated[Path | None, typer.Option(help="Write the mesh: .stl .obj .ply .glb .gdf")] = None,
+    sections: Annotated[
+        Path | None, typer.Option(help="Draw its sections with their Lewis forms: a .png file.")
+    ] = None,
     force: Force = False,
 ) -> None:
     """Print particulars of a hull at rest beside published ones."""
     if export is not None:
         require_mesh_target(export)
-        _refuse_existing(export, force)
-    ship = _ship_of(what, panel_area)
+        refuse_existing(export, force)
+    if sections is not None:
+        require_suffix(sections, ".png")
+        refuse_existing(sections, force)
+    ship = ship_of(what, panel_area)
     if export is not None:
         ship.mesh.export(export)
+    if sections is not None:
+        from panelsim.view.section_picture import section_picture  # brings matplotlib
+
+        section_picture(ship, sections)
     facts = ship_facts(ship)
     if as_json:
         sys.stdout.write(json.dumps(facts.as_dict(), indent=2, allow_nan=False) + "\n")
@@ -271,8 +272,12 @@ def hull(
         for sentence in ship.form.assumptions if ship.form is not None else ():
             say(f"assumed: {sentence}")
         warn(facts.warnings)
-    if export is not None:
-        err.print(f"Wrote {export}")
+    for file in (export, sections):
+        if file is not None:
+            err.print(f"Wrote {file}")
+
+
+app.command()(righting)
 
 
 @app.command()
@@ -283,8 +288,8 @@ def hydro(
     force: Force = False,
 ) -> None:
     """Compute the hydrodynamic coefficients of a ship and store them."""
-    _refuse_existing(output, force)
-    ship = _ship_of(what)
+    refuse_existing(output, force)
+    ship = ship_of(what)
     make_output_folder(output.parent)
     with progress_bars() as track:
         database = HydroDatabase.compute(ship, method, progress=track("hydrodynamic coefficients"))
@@ -317,23 +322,6 @@ def export(
         raise PanelsimError("No format was asked for", allowed="--csv")
     file = run_folder if run_folder.is_file() else run_folder / "history.nc"
     for name in CSV_FILES:
-        _refuse_existing(file.parent / name, force)
+        refuse_existing(file.parent / name, force)
     for path in history_to_csv(History.load(file), file.parent):
         out.print(f"Wrote {path}")
-
-
-def _ship_of(what: str, panel_area: float | None = None) -> Ship:
-    """The ship of a bundled hull, a hull folder or a case file."""
-    path = Path(what)
-    if is_mesh_file(path):
-        raise PanelsimError(
-            "A mesh file does not say how the ship floats",
-            got=path,
-            allowed="a bundled hull, a hull folder or a case file",
-            remedy="write a case file with [ship.mesh] and a loading; `panelsim check` checks the mesh alone",
-        )
-    if path.name == FILE_NAME:
-        return load_ship(path.parent, panel_area)
-    if path.suffix == ".toml":
-        return Case.load(path, [] if panel_area is None else [f"ship.panel_area={panel_area!r}"]).ship
-    return load_ship(what, panel_area)

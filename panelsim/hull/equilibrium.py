@@ -1,4 +1,4 @@
-"""The draft and trim at which a loaded hull floats, and its righting arm when heeled."""
+"""The draft and trim at which a loaded hull floats, upright or held at a heel."""
 
 from dataclasses import dataclass
 
@@ -52,7 +52,7 @@ def equilibrium(
             allowed=f"between {low:g} and {high:g} m",
         )
     volume = mass / water_density
-    waterline, trim, part = _settle(mesh, 0.0, volume, gravity_center, waterline=initial_draft)
+    waterline, trim, part = settle(mesh, 0.0, volume, gravity_center, waterline=initial_draft)
     if abs(trim) > LARGEST_TRIM:
         raise PanelsimError(
             "The hull floats only at a trim that no ship has",
@@ -80,35 +80,20 @@ def draft_of_mass(
     mass in kg. Raises PanelsimError for a mass that is not positive or that the hull cannot carry.
     """
     _require_carried(mesh, mass, water_density)
-    height = level_vertices(mesh, 0.0, trim)[:, 2]
+    return waterline_of_volume(mesh, mass / water_density, heel=0.0, trim=trim) / float(np.cos(trim))
+
+
+def waterline_of_volume(mesh: PanelMesh, volume: float, *, heel: float, trim: float) -> float:
+    """Height of the water plane [m] in level axes at which a hull held at heel and trim displaces a volume.
+
+    volume [m3], less than that of the closed hull; heel and trim [rad].
+    """
+    height = level_vertices(mesh, heel, trim)[:, 2]
 
     def excess(waterline: float) -> float:
-        part = immersed_part(mesh, heel=0.0, trim=trim, waterline=waterline)
-        return part.volume - mass / water_density
+        return immersed_part(mesh, heel=heel, trim=trim, waterline=waterline).volume - volume
 
-    return float(brentq(excess, height.min(), height.max(), xtol=1e-12) / np.cos(trim))
-
-
-def righting_arm(
-    mesh: PanelMesh,
-    heel: float,
-    *,
-    mass: float,
-    center_of_gravity: ArrayLike,
-    water_density: float = SALT_WATER_DENSITY,
-) -> float:
-    """Righting arm GZ [m] at a heel [rad, starboard down positive], free to sink and trim at constant mass.
-
-    A positive arm at a positive heel turns the ship upright. mass in kg, center_of_gravity (3,) in hull
-    axes [m]. Raises PanelsimError where the hull cannot carry the mass or no balance is found.
-    """
-    gravity_center = hull_point(center_of_gravity)
-    _require_carried(mesh, mass, water_density)
-    height = level_vertices(mesh, heel, 0.0)[:, 2]
-    middle = 0.5 * float(height.min() + height.max())
-    _, trim, part = _settle(mesh, heel, mass / water_density, gravity_center, waterline=middle)
-    level_gravity = rotation_to_earth(heel, trim, 0.0) @ gravity_center
-    return float(level_gravity[1] - part.volume_moment[1] / part.volume)
+    return float(brentq(excess, height.min(), height.max(), xtol=1e-12))
 
 
 def _require_carried(mesh: PanelMesh, mass: float, water_density: float) -> None:
@@ -124,10 +109,15 @@ def _require_carried(mesh: PanelMesh, mass: float, water_density: float) -> None
         )
 
 
-def _settle(
+def settle(
     mesh: PanelMesh, heel: float, volume: float, gravity_center: FloatArray, *, waterline: float
 ) -> tuple[float, float, ImmersedPart]:
-    """Newton's method for waterline height and trim at a fixed heel; returns both and the immersed part."""
+    """Newton's method for the water's height [m] and the trim [rad] at a fixed heel [rad].
+
+    volume [m3] to displace, gravity_center (3,) in the axes of the mesh [m], waterline [m] in level axes
+    where the search starts, without trim. Returns height and trim, and the immersed part there. Raises
+    PanelsimError where no balance is found.
+    """
     trim = 0.0
     length = float(np.ptp(mesh.vertices[:, 0]))
     for _ in range(MOST_STEPS):

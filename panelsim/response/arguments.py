@@ -1,0 +1,108 @@
+"""What the functions of the frequency domain refuse of their arguments."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from panelsim.conventions import FloatArray
+from panelsim.errors import PanelsimError
+from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.roll_damping.terms import RollDampingTerms
+from panelsim.hydro.transom import Transom
+from panelsim.loads.arguments import FASTEST, require_ship
+from panelsim.loads.supplementary import Supplementary
+from panelsim.seaway.checks import require_angles
+from panelsim.ship.ship import Ship
+
+HIGHEST_FREQUENCY = 50.0  # rad/s; a wave of 2.5 cm
+FARTHEST = 1e4  # m, from the centre of gravity to a point of the ship
+
+RollDamping = RollDampingTerms | Sequence[RollDampingTerms] | None
+
+
+def require_parts(ship: Ship, database: HydroDatabase, supplementary: object, transom: object) -> None:
+    """Raise PanelsimError for parts of another kind, and for a database of another ship."""
+    require_ship(ship)
+    optional = (("supplementary", supplementary, Supplementary), ("transom", transom, Transom))
+    parts = [("database", database, HydroDatabase), *(part for part in optional if part[1] is not None)]
+    for name, part, kind in parts:
+        if not isinstance(part, kind):
+            raise PanelsimError(
+                f"The {name} is of another kind", got=repr(part)[:60], allowed=f"a {kind.__name__}"
+            )
+    database.require_for(ship)
+
+
+def rising_frequencies(values: ArrayLike) -> FloatArray:
+    """Wave frequencies (F,) [rad/s]; PanelsimError unless they are positive and rise."""
+    array = _row("wave frequencies", values, "rad/s")
+    if not (array.min() > 0.0 and array.max() <= HIGHEST_FREQUENCY and np.all(np.diff(array) > 0.0)):
+        raise PanelsimError(
+            "The wave frequencies are not positive and rising",
+            got=f"{array.min():g} to {array.max():g} rad/s, {len(array)} of them",
+            allowed=f"more than 0, at most {HIGHEST_FREQUENCY:g} rad/s, each above the one before",
+        )
+    return array
+
+
+def different_headings(name: str, values: ArrayLike) -> FloatArray:
+    """Headings (H,) [rad]; PanelsimError unless they are angles in radians, each but once."""
+    array = require_angles(name, _row(f"{name}s", values, "rad"))
+    if len(np.unique(np.round(np.mod(array, 2.0 * np.pi), 9))) < len(array):
+        raise PanelsimError(
+            f"A {name} is given twice", got=np.round(np.degrees(array), 3).tolist(), remedy="give each once"
+        )
+    return array
+
+
+def different_speeds(values: ArrayLike) -> FloatArray:
+    """Speeds (S,) [m/s]; PanelsimError unless they are those of a ship that goes ahead, each but once."""
+    array = _row("speeds", values, "m/s")
+    if array.min() < 0.0 or array.max() > FASTEST or len(np.unique(array)) < len(array):
+        raise PanelsimError(
+            "The speeds are not those of a ship that goes ahead, or one is given twice",
+            got=array.tolist(),
+            allowed=f"0 to {FASTEST:g} m/s",
+            remedy="turn knots into m/s: 20 * KNOT",
+        )
+    return array
+
+
+def terms_by_speed(roll_damping: RollDamping, speeds: int) -> tuple[RollDampingTerms, ...]:
+    """The roll damping at each of so many speeds; one for all may be given, or None for none."""
+    if roll_damping is None or isinstance(roll_damping, RollDampingTerms):
+        return (roll_damping or RollDampingTerms(),) * speeds
+    given = tuple(roll_damping) if isinstance(roll_damping, Sequence) else ()
+    if len(given) != speeds or not all(isinstance(terms, RollDampingTerms) for terms in given):
+        raise PanelsimError(
+            "The roll damping is of another kind, or not one for each speed",
+            got=repr(roll_damping)[:60],
+            allowed=f"RollDampingTerms, or {speeds} of them",
+        )
+    return given
+
+
+def point_of_ship(point: ArrayLike) -> FloatArray:
+    """A point (3,) [m] in hull axes; PanelsimError for anything else."""
+    array = _row("coordinates of the point", point, "m")
+    if array.shape != (3,) or np.abs(array).max() > FARTHEST:
+        raise PanelsimError(
+            "A point of the ship is three numbers in hull axes",
+            got=repr(point)[:60],
+            allowed="(x forward of midships, y to port, z above the baseline) in m",
+        )
+    return array
+
+
+def _row(name: str, values: ArrayLike, unit: str) -> FloatArray:
+    """Finite numbers in a row, at least one."""
+    try:
+        array = np.array(values, dtype=float, ndmin=1)
+    except (TypeError, ValueError):
+        array = np.empty(0)
+    if array.ndim != 1 or not array.size or not np.isfinite(array).all():
+        raise PanelsimError(
+            f"The {name} are not a row of finite numbers", got=repr(values)[:60], allowed=unit
+        )
+    return array

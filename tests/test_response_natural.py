@@ -1,0 +1,110 @@
+"""Natural periods: closed forms, the matrices of their own frequency, and decays in the time domain."""
+
+import numpy as np
+import pytest
+
+from panelsim.conventions import Dof
+from panelsim.errors import PanelsimError
+from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.interpolation import complex_inertia
+from panelsim.hydro.roll_damping.decay import fit_roll_decay
+from panelsim.hydro.roll_damping.terms import RollDampingTerms
+from panelsim.hydro.store import database_for
+from panelsim.loads.supplementary import Supplementary
+from panelsim.motion.simulate import simulate
+from panelsim.response.natural import natural_periods
+from panelsim.seaway.seaways import CalmSeaway
+from panelsim.ship.bundled import load_ship
+from panelsim.ship.ship import Ship
+
+
+def test_uncoupled_periods_are_those_of_their_own_frequency(
+    halifax: Ship, halifax_database: HydroDatabase
+) -> None:
+    """T = 2π√((I + A(ω))/C) and ζ = B(ω)/(2√((I + A) C)), WORKSHOP 2.2, at ω = 2π/T."""
+    found = natural_periods(halifax, halifax_database)
+    for name, mode in found.items():
+        assert mode is not None
+        dof = Dof[name.upper()]
+        omega = 2 * np.pi / mode.uncoupled_period
+        inertia = complex_inertia(halifax_database, np.array([omega]))[0, dof, dof]
+        mass = halifax.inertia[dof, dof] + inertia.real
+        stiffness = halifax.hydrostatics.stiffness[dof, dof]
+        assert omega == pytest.approx(np.sqrt(stiffness / mass), rel=1e-9)
+        ratio = -omega * inertia.imag / (2 * np.sqrt(mass * stiffness))
+        assert mode.uncoupled_damping_ratio == pytest.approx(ratio, rel=1e-6)
+        # Other motions go with it, and shift it by a few per cent.
+        assert mode.period == pytest.approx(mode.uncoupled_period, rel=0.03)
+
+
+def test_a_sphere_heaves_as_a_sphere() -> None:
+    """Half immersed, radius r: A33 and B33 of Hulme (1982) at K r = 1.35 are 0.44 and 0.13 of 2πρr³/3.
+
+    With them ω² r/g = 1.5/(1 + A): period 2π √(r (1 + A)/(1.5 g)), and ζ = ½ B/(1 + A).
+    """
+    ship = load_ship("sphere")
+    radius = ship.draft
+    mode = natural_periods(ship, database_for(ship))["heave"]
+    assert mode is not None
+    added = 0.44
+    expected = 2 * np.pi * np.sqrt(radius * (1 + added) / (1.5 * ship.gravity))
+    assert mode.period == pytest.approx(expected, rel=0.03)
+
+
+def test_a_decay_shows_the_period_and_ratio(halifax: Ship, halifax_database: HydroDatabase) -> None:
+    """Linear roll decay from 0.05 rad with a roll damper: period to 0.5 %, damping to 2 %.
+
+    The first swing holds the start of the other motions. (Springs and dampers in sway, which have a mode near
+    that of roll, would make more of it.)
+    """
+    damper = Supplementary(damping={"roll": 1e7})
+    mode = natural_periods(halifax, halifax_database, damper)["roll"]
+    assert mode is not None
+    history = simulate(
+        halifax,
+        CalmSeaway(),
+        speed=0.0,
+        duration=80.0,
+        time_step=0.1,
+        ramp=0.0,
+        database=halifax_database,
+        model="linear",
+        supplementary=damper,
+        initial_displacement=(0.0, 0.0, 0.0, 0.05, 0.0, 0.0),
+    )
+    fit = fit_roll_decay(history.time, history.displacement[:, Dof.ROLL])
+    print(fit.period, mode.period, fit.damping_ratio, mode.damping_ratio)
+    assert fit.period == pytest.approx(mode.period, rel=0.005)
+    assert fit.equivalent_damping_ratio(0.02) == pytest.approx(mode.damping_ratio, rel=0.02)
+    assert mode.damped_period > mode.period
+
+
+def test_roll_damping_adds_to_the_ratio(halifax: Ship, halifax_database: HydroDatabase) -> None:
+    """5 % of critical adds some 5 % less what the coupling takes; only the linear term counts."""
+    bare = natural_periods(halifax, halifax_database)["roll"]
+    assert bare is not None
+    omega = 2 * np.pi / bare.uncoupled_period
+    stiffness = halifax.hydrostatics.stiffness[Dof.ROLL, Dof.ROLL]
+    terms = RollDampingTerms.of_critical(0.05, stiffness / omega**2, stiffness)
+    found = natural_periods(halifax, halifax_database, None, terms)
+    assert found["roll"] is not None
+    added = found["roll"].uncoupled_damping_ratio - bare.uncoupled_damping_ratio
+    assert added == pytest.approx(0.05, rel=1e-9)
+    assert found["roll"].damping_ratio - bare.damping_ratio == pytest.approx(0.05, rel=0.15)
+    more = RollDampingTerms(terms.linear, 1e9, 1e9)
+    assert natural_periods(halifax, halifax_database, None, more)["roll"] == found["roll"]
+
+
+def test_what_does_not_swing_has_no_period(halifax: Ship, halifax_database: HydroDatabase) -> None:
+    """A ship of negative metacentric height, and one that is damped beyond the critical."""
+    ship = load_ship("wigley_i")
+    assert natural_periods(ship, database_for(ship))["roll"] is None
+    damped = Supplementary(damping={"roll": 1e10})
+    assert natural_periods(halifax, halifax_database, damped)["roll"] is None
+
+
+def test_other_arguments_are_refused(halifax: Ship, halifax_database: HydroDatabase, barge: Ship) -> None:
+    with pytest.raises(PanelsimError, match="another ship"):
+        natural_periods(barge, halifax_database)
+    with pytest.raises(PanelsimError, match="roll damping"):
+        natural_periods(halifax, halifax_database, None, 0.05)  # type: ignore[arg-type]
