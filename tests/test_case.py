@@ -171,7 +171,10 @@ def test_a_value_out_of_range_is_refused_with_the_limit(tmp_path: Path, override
         (RANDOM.replace("step = 0.1", "step = 1e-9"), ["more than 5000 frequencies"]),
         (RANDOM.replace("peak_period = 15.0", ""), ["also needs peak_period"]),
         (RANDOM + "ramp = 1e5\ncapsize_angle_deg = 0\nmodel = 'cubic'", ["run.model is not known"]),
-        (RANDOM + "model = 'linear'\ninertia = 'large'", ["the linear model has the inertia of small angles"]),
+        (
+            RANDOM + "model = 'linear'\ninertia = 'large'",
+            ["the linear model has the inertia of small angles"],
+        ),
         (
             RANDOM.replace("= 20\n[sea", "= 20\nmesh = {length_unit = 1, up = 'z', forward = 'x'}\n[sea"),
             [".stl"],
