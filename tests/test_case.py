@@ -124,6 +124,7 @@ def test_a_misspelt_key_is_not_called_missing_as_well(tmp_path: Path) -> None:
         ("seaway.kind=randm", ["seaway.kind is not known", "'random', 'regular', 'calm'"]),
         ("supplementary.damping.roll=nan", ["not a finite number"]),
         ("run.stepper=euler", ["run.stepper is not known", "'exponential', 'rk4' or 'ab3'"]),
+        ("run.inertia=small", ["run.inertia is not known", "'large' or 'linear'"]),
     ],
 )
 def test_a_wrong_type_is_named_with_what_was_got(tmp_path: Path, override: str, words: list[str]) -> None:
@@ -170,6 +171,10 @@ def test_a_value_out_of_range_is_refused_with_the_limit(tmp_path: Path, override
         (RANDOM.replace("step = 0.1", "step = 1e-9"), ["more than 5000 frequencies"]),
         (RANDOM.replace("peak_period = 15.0", ""), ["also needs peak_period"]),
         (RANDOM + "ramp = 1e5\ncapsize_angle_deg = 0\nmodel = 'cubic'", ["run.model is not known"]),
+        (
+            RANDOM + "model = 'linear'\ninertia = 'large'",
+            ["the linear model has the inertia of small angles"],
+        ),
         (
             RANDOM.replace("= 20\n[sea", "= 20\nmesh = {length_unit = 1, up = 'z', forward = 'x'}\n[sea"),
             [".stl"],
