@@ -92,6 +92,8 @@ def _initialise() -> None:
             offline_cache=True,
             log_level=ti.WARN,
         )
+        # At once, because another thread than this one could not do it before its first kernel.
+        ti.lang.impl.get_runtime().materialize()
 
 
 @contextlib.contextmanager
