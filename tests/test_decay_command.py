@@ -105,9 +105,9 @@ def test_a_case_is_run_and_its_terms_come_out(call: Call, case_file: Path, tmp_p
     assert history.displacement[0, Dof.ROLL] == pytest.approx(np.deg2rad(10.0))
     assert not np.abs(history.loads["supplementary"]).any()
     linear, quadratic = re.search(r"I b1, I b2\s+(\S+) N m s, (\S+) N m s2", out).groups()  # type: ignore[union-attr]
-    # The linear term has the radiated waves in it, and the quadratic one what they leave: 3 % each.
-    assert float(linear) == pytest.approx(1e7, rel=0.05)
-    assert float(quadratic) == pytest.approx(4e8, rel=0.02)
+    # Measured 3.5 % and 1.8 %: the radiated waves are in them, and at 10 degrees the stiffness is 5 % softer.
+    assert float(linear) == pytest.approx(1e7, rel=0.06)
+    assert float(quadratic) == pytest.approx(4e8, rel=0.03)
     natural = natural_roll(Case.load(case_file).ship, database_for(Case.load(case_file).ship))
     assert printed(out, "small roll by the matrices    T") == pytest.approx(natural.period, abs=1e-3)
     again = call(tmp_path / "d/history.nc", "--out", tmp_path / "again")[1]

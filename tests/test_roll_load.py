@@ -82,8 +82,17 @@ def test_the_steppers_agree(run_halifax: Run) -> None:
     common = FREE | {"model": "nonlinear", "roll_damping": TERMS, "duration": 20.0}
     fine = run_halifax(stepper="rk4", time_step=0.1, **common).displacement[::4, 3]
     coarse = run_halifax(time_step=0.4, **common).displacement[:, 3]
-    # Measured 7e-4 of the heel; without the slope of the linear term in the scheme 2e-3.
-    np.testing.assert_allclose(coarse, fine, atol=2e-3 * HEEL)
+    # Measured 2.7e-4 of the heel.
+    np.testing.assert_allclose(coarse, fine, atol=6e-4 * HEEL)
+
+
+def test_any_step_is_exact_in_the_linear_model(run_halifax: Run) -> None:
+    """The exponential scheme knows the slope of the linear term: 0.1 s and 0.8 s give the same roll."""
+    common = FREE | {"model": "linear", "duration": 20.0, "roll_damping": RollDampingTerms(2e7)}
+    fine = run_halifax(time_step=0.1, **common).displacement[::8, 3]
+    coarse = run_halifax(time_step=0.8, **common).displacement[:, 3]
+    # Rounding of some hundred steps.
+    np.testing.assert_allclose(coarse, fine, atol=1e-9 * HEEL)
 
 
 def test_members_of_a_batch_have_their_own(
@@ -175,7 +184,7 @@ def test_a_decay_gives_the_terms_back(
     total, fit = equivalent(roll_damping=terms)
     wanted = float(terms.equivalent(np.pi / fit.period * HEEL))
     print(f"{100 * ((total - waves) / wanted - 1):+.2f} %, waves {100 * waves / wanted:.1f} % of the terms")
-    # Asked for is 1 %; what is left is the stiffness, which is not linear: 2 % softer at 5 degrees than at 0.
+    # Asked for is 1 %; what is left is the stiffness: in a fit from 5 degrees 1.7 % softer.
     assert total - waves == pytest.approx(wanted, rel=0.01)
     if terms.quadratic:
         assert fit.quadratic * roll.inertia == pytest.approx(terms.quadratic, rel=0.01)
@@ -193,10 +202,10 @@ def test_natural_roll_and_percent_of_critical(
         fit_roll_decay(run.time, run.displacement[:, 3])
         for run in (run_halifax(roll_damping=terms, **common), run_halifax(**common))
     )
-    # The memory of the waves, and sway and yaw that follow, leave 0.1 % in the period.
-    assert bare.period == pytest.approx(roll.period, rel=1e-3)
+    # Measured 3e-5; the transient of the memory is no part of the fit.
+    assert bare.period == pytest.approx(roll.period, rel=2e-4)
     waves = bare.equivalent_damping_ratio(0.5 * HEEL)
-    # Measured 0.3 %: the fit has no memory.
+    # Measured 0.6 %: the fit has no memory.
     assert damped.equivalent_damping_ratio(0.5 * HEEL) - waves == pytest.approx(0.05, rel=0.01)
 
 
