@@ -79,6 +79,10 @@ _HOMES = {
     "hull_pressure": "loads.hull_pressure",
     "HullPressure": "loads.hull_pressure",
     "Supplementary": "loads.supplementary",
+    "natural_periods": "response.natural",
+    "NaturalMode": "response.natural",
+    "Response": "response.response",
+    "response": "response.response",
     "simulate": "motion.simulate",
     "simulate_batch": "motion.simulate",
     "History": "motion.history",
@@ -118,6 +122,10 @@ if TYPE_CHECKING:
     from panelsim.motion.history import History as History
     from panelsim.motion.simulate import simulate as simulate
     from panelsim.motion.simulate import simulate_batch as simulate_batch
+    from panelsim.response.natural import NaturalMode as NaturalMode
+    from panelsim.response.natural import natural_periods as natural_periods
+    from panelsim.response.response import Response as Response
+    from panelsim.response.response import response as response
     from panelsim.results.statistics import statistics as statistics
     from panelsim.seaway.climate.limits import buckley_height as buckley_height
     from panelsim.seaway.climate.scatter import ScatterTable as ScatterTable

@@ -1,5 +1,7 @@
 """Transfer functions: what theory says of them, and the linear time domain wave by wave."""
 
+import subprocess
+import sys
 from functools import partial
 from types import SimpleNamespace
 
@@ -373,6 +375,16 @@ def test_a_database_of_another_ship_is_refused(halifax_database: HydroDatabase, 
         response(barge, halifax_database, frequencies=[0.5], wave_headings=[0.5], speeds=[0.0])
     with pytest.raises(PanelsimError, match="load_ship"):
         response("halifax", halifax_database, frequencies=[0.5], wave_headings=[0.5], speeds=[0.0])  # type: ignore[arg-type]
+
+
+def test_the_public_name_is_a_function_however_it_is_imported() -> None:
+    """The package of that name may be there first."""
+    for first in ("import panelsim.response.natural", "from panelsim import natural_periods", ""):
+        script = (
+            f"{first}\nimport panelsim as ps\ntry:\n    ps.response(1, 2, frequencies=1, wave_headings=1,"
+        )
+        script += " speeds=1)\nexcept ps.PanelsimError as error:\n    assert 'load_ship' in str(error)\n"
+        subprocess.run([sys.executable, "-c", script], check=True, timeout=60)
 
 
 @pytest.mark.parametrize("point", [(1.0, 2.0), "bridge", (np.nan, 0.0, 0.0), (1e6, 0.0, 0.0)])

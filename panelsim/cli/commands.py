@@ -17,6 +17,7 @@ from panelsim.case.template import case_template, hull_entry
 from panelsim.cli.arguments import refuse_existing, require_suffix, ship_of
 from panelsim.cli.decay import decay
 from panelsim.cli.options import EXIT_BAD_INPUT, EXIT_ENDED_EARLY, Force, Overrides
+from panelsim.cli.respond import respond
 from panelsim.cli.righting import righting
 from panelsim.cli.show import err, out, progress_bars, say, show_case, show_facts, show_result, warn
 from panelsim.cli.show_sea import show_sea
@@ -237,6 +238,9 @@ def sea(
     else:
         files.append(write_components(table, case.seaway.components, overwrite=True))
     out.print(f"Files in {folder}: {', '.join(file.name for file in files)}", soft_wrap=True)
+
+
+app.command("response")(respond)
 
 
 @app.command()

@@ -1,0 +1,197 @@
+"""`panelsim response`: its table, its file and its pictures, and what it refuses."""
+
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.figure import Figure
+
+from panelsim.case import Case
+from panelsim.cli import main
+from panelsim.cli.respond import case_response, numbers
+from panelsim.conventions import KNOT
+from panelsim.view.response_picture import polar_picture, transfer_picture
+
+ROOT = Path(__file__).parents[1]
+EXAMPLE = ROOT / "examples" / "halifax_sea_state_7.toml"
+QUICK = ["--set", "ship.panel_area=20", "--headings", "0,90,150", "--speeds", "0:20:20"]
+
+
+@pytest.fixture
+def call(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):  # type: ignore[no-untyped-def]
+    """Call `panelsim response` through its entry point: exit code, output, errors."""
+
+    def called(*arguments: object) -> tuple[int, str, str]:
+        capsys.readouterr()
+        monkeypatch.setattr(sys, "argv", ["panelsim", "response", *map(str, arguments)])
+        with pytest.raises(SystemExit) as end:
+            main()
+        captured = capsys.readouterr()
+        return int(end.value.code or 0), captured.out, captured.err
+
+    return called
+
+
+@pytest.fixture(scope="module")
+def quick() -> Case:
+    return Case.load(EXAMPLE, ["ship.panel_area=20"])
+
+
+def test_it_prints_the_table_and_writes_file_and_pictures(call, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    target = tmp_path / "out" / "r.nc"
+    code, text, errors = call(EXAMPLE, *QUICK, "-o", target, "--point", "bow=60,0,12")
+    assert (code, errors) == (0, "")
+    # The paths of the files are not broken.
+    assert max(len(line) for line in text.splitlines() if not line.startswith("Files in")) <= 80
+    assert sorted(p.name for p in target.parent.iterdir()) == ["r-polar.png", "r-transfer.png", "r.nc"]
+    with xr.open_datatree(target, engine="h5netcdf") as tree:
+        own = (
+            tree["in_sea"].to_dataset().sel(speed=20 * KNOT, wave_heading=np.deg2rad(150.0), method="nearest")
+        )
+        rms = dict(zip(own["signal"].values, own["rms"].values, strict=True))
+        transfer = tree["transfer_real"] + 1j * tree["transfer_imag"]
+        assert transfer.dims == ("speed", "wave_heading", "wave_frequency", "signal")
+        # Heave of the longest wave, of ten ship lengths.
+        assert abs(complex(transfer.sel(signal="heave").values[0, 1, 0])) == pytest.approx(1.0, abs=0.02)
+        bow = tree["points/bow/in_sea/rms"].sel(point_signal="displacement_z")
+        assert bow.values[1, 2] > own["rms"].sel(signal="heave").item()
+    # The line of the motion in the first table, and the row of the heading in that of the last speed.
+    heave = re.search(r"heave +m +([\d.]+)", text)
+    assert heave is not None and float(heave[1]) == pytest.approx(rms["heave"], abs=6e-4)
+    row = [line for line in text.splitlines() if line.split()[:1] == ["150"]][-1].split()
+    assert float(row[4]) == pytest.approx(np.rad2deg(rms["roll"]), abs=6e-4)
+    assert "damping" in text and "of critical" in text
+    # What is there is not replaced by itself.
+    code, _, errors = call(EXAMPLE, *QUICK, "-o", target)
+    assert code == 2 and "--force" in errors
+    assert call(EXAMPLE, *QUICK, "-o", target, "--force")[0] == 0
+
+
+def test_a_sea_by_compass_is_turned_with_the_headings(quick: Case) -> None:
+    """The same sea given by spectrum and spread, and by a compass direction with a course."""
+    spread = [
+        "ship.panel_area=20",
+        'seaway.spreading={kind="cosine-squared", spreading_angle_deg=90}',
+        "seaway.direction_step_deg=15",
+        "seaway.minimum_energy=0.5",
+        "seaway.spectrum=jonswap",
+    ]
+    case = Case.load(EXAMPLE, spread)
+    beta = np.deg2rad([30.0])
+    found = case_response(case, beta, np.array([10.0]), {})
+    at = found.table.in_sea(
+        case.seaway.point_spectrum,  # type: ignore[attr-defined]
+        wave_headings=found.table.wave_headings,
+        spreading=case.seaway.spreading,  # type: ignore[attr-defined]
+    )
+    # The scattered directions lie otherwise about the mean.
+    np.testing.assert_allclose(found.in_sea["rms"].values, at["rms"].values, rtol=0.01)
+    assert np.all(found.in_sea["wave_heading"].values == found.table.wave_headings)
+
+
+def test_a_regular_wave_is_turned_too() -> None:
+    case = Case.load(
+        EXAMPLE,
+        [
+            "ship.panel_area=20",
+            'seaway={kind="regular", wave_height=2.0, wave_frequency=0.6, wave_heading_deg=150}',
+        ],
+    )
+    found = case_response(case, np.deg2rad([40.0, 150.0]), np.array([5.0]), {})
+    here = found.table.dataset["transfer"]
+    assert found.own_heading == pytest.approx(np.deg2rad(150.0))
+    exact = found.table.in_sea(case.seaway)["rms"].values[:, 0]
+    np.testing.assert_allclose(found.in_sea["rms"].values[:, 1], exact, rtol=1e-9)
+    # Two knots of a fine table: H at 0.6 rad/s by a straight line is good to a per cent of the peak.
+    omega = found.table.wave_frequencies
+    for j in range(2):
+        amplitude = np.abs([np.interp(0.6, omega, here.values[0, j, :, k]) for k in range(6)]) / np.sqrt(2)
+        np.testing.assert_allclose(
+            found.in_sea["rms"].values[0, j], amplitude, atol=0.01 * np.abs(here.values[0, :, :]).max()
+        )
+
+
+def test_the_cases_own_speed_and_heading_are_always_there(quick: Case) -> None:
+    found = case_response(quick, np.deg2rad([0.0, 90.0]), np.array([0.0]), {})
+    np.testing.assert_allclose(found.table.speeds, [0.0, quick.speed])
+    np.testing.assert_allclose(np.rad2deg(found.table.wave_headings), [0.0, 90.0, 150.0])
+
+
+def test_pictures_show_the_right_side_and_the_right_phase(
+    quick: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    figures: list[Figure] = []
+    save = Figure.savefig
+
+    def keep(self: Figure, *args: object, **kwargs: object) -> None:
+        figures.append(self)
+        save(self, *args, **kwargs)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(Figure, "savefig", keep)
+    found = case_response(quick, np.deg2rad([45.0, 150.0, 270.0]), np.array([10.0]), {})
+    polar_picture(found.in_sea, tmp_path / "polar.png")
+    transfer_picture(found.table, found.own_heading, quick.speed, tmp_path / "transfer.png")
+    polar, transfer = figures
+    heave = polar.axes[2]
+    assert heave.get_theta_direction() == -1  # type: ignore[attr-defined]
+    angle, radius = (np.asarray(values) for values in heave.lines[1].get_data())
+    rms = found.in_sea["rms"].sel(signal="heave").values[1]
+    # Waves of 150° come from 30° to port of the bow, 330° clockwise; 270° from starboard; 45° from port aft.
+    for side, heading in ((330.0, 1), (90.0, 2), (225.0, 0)):
+        assert radius[np.argmin(np.abs(np.rad2deg(angle) - side))] == pytest.approx(rms[heading])
+    amplitude, phase = transfer.axes[7], transfer.axes[10]
+    assert amplitude.get_ylabel().startswith("pitch")
+    line = amplitude.lines[1].get_ydata()
+    j = 1
+    i = int(np.argmin(np.abs(found.table.speeds - quick.speed)))
+    k = found.table.wave_frequencies**2 / quick.ship.gravity
+    np.testing.assert_allclose(line, np.abs(found.table.transfer[i, j, :, 4]) / k)  # type: ignore[arg-type]
+    # Long waves from ahead: the bow goes down as the crest passes from it to the CG and on, 90° behind.
+    assert np.asarray(phase.lines[1].get_ydata())[0] == pytest.approx(-90.0, abs=15.0)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--headings", "0:x:3"], "--headings"),
+        (["--headings", "0:180:0"], "--headings"),
+        (["--headings", "180:0:15"], "--headings"),
+        (["--headings", "0:360:0.1"], "400"),
+        (["--headings", "500"], "beyond a turn"),
+        (["--headings", "0,360"], "twice"),
+        (["--speeds", "-5,10"], "goes ahead"),
+        (["--speeds", "nan"], "--speeds"),
+        (["--point", "bridge"], "NAME=X,Y,Z"),
+        (["--point", "a=1,2"], "three numbers"),
+        (["--point", "a=1,2,3", "--point", "a=1,2,3"], "NAME=X,Y,Z"),
+        (["--set", 'seaway={kind="calm"}'], "calm"),
+        (["-o", "response.csv"], ".nc"),
+    ],
+)
+def test_bad_input_is_refused_in_one_message(call, tmp_path: Path, options: list[str], message: str) -> None:  # type: ignore[no-untyped-def]
+    target = tmp_path / "r.nc"
+    where = [] if "-o" in options else ["-o", target]
+    code, text, errors = call(EXAMPLE, "--set", "ship.panel_area=20", *where, *options)
+    assert code == 2 and message in errors and text == ""
+    assert errors.count("error:") == 1 and "Traceback" not in errors
+    assert not target.exists()
+
+
+def test_ranges_and_lists() -> None:
+    np.testing.assert_allclose(numbers("--x", "0:180:45", "degrees"), [0, 45, 90, 135, 180])
+    np.testing.assert_allclose(numbers("--x", "0:1:0.1", "knots"), np.arange(11) / 10)
+    np.testing.assert_allclose(numbers("--x", "5, 7.5", "knots"), [5.0, 7.5])
+
+
+def test_the_code_of_the_page_runs() -> None:
+    page = (ROOT / "docs" / "response.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    assert blocks
+    names: dict[str, object] = {}
+    for block in blocks:
+        exec(block, names)
+    # RMS of heave of the frigate of TM 2003-190 at 20 knots in bow seas of 7.5 m.
+    assert names["heave"] == pytest.approx(1.67, abs=0.02)
