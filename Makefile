@@ -10,7 +10,7 @@ run: $(READY)
 	$(BIN)/panelsim run examples/halifax_sea_state_7.toml --out runs/halifax_sea_state_7 --force
 
 test: $(READY)
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n auto
 
 check: $(READY)
 	$(BIN)/ruff check .

@@ -162,6 +162,7 @@ def test_a_step_takes_the_evaluations_that_it_says(
         pressure_method="auto",
         pressure_rule="vertex+centre",
         supplementary=springs,
+        roll_damping=None,
     )
     equations = EquationsOfMotion(halifax.inertia, loads, Radiation(halifax_database, [TWENTY_KNOTS]), 4.0)
     times: list[float] = []
