@@ -1,4 +1,4 @@
-"""What a point of the ship does in a run: rigid-body kinematics of any size, and its motion over the waves."""
+"""What a point of the ship does in a run: kinematics at any angle, and its motion over the waves."""
 
 from collections.abc import Mapping
 
@@ -22,14 +22,13 @@ _AXES_NOTE = "translating earth: x forward, y port, z up; mean speed and gravity
 def point_motions(history: History, point: ArrayLike) -> xr.Dataset:
     """Motions of a point of the ship (3,) [m], given in hull axes: midships, centreline, baseline.
 
-    `displacement` from rest, `velocity` and `acceleration` (time, axis) [m, m/s, m/s2] along translating earth
-    axes, of the rigid ship at any angle: the mean speed is not in the velocity, and gravity, which an
+    `displacement` from rest, `velocity` and `acceleration` (time, axis) [m, m/s, m/s2] along translating
+    earth axes, of the rigid ship at any angle: the mean speed is not in the velocity, and gravity, which an
     instrument on deck feels, not in the acceleration. `relative_motion` (time) [m] is the vertical
-    displacement less the elevation of the incident wave, positive where the point rises from the water: with
-    the attribute `height_above_water` [m], that at rest, it sums to the height over the wave, and where the sum
-    is below 0 the point is under. The wave is taken
-    where the point is, in a linear run at its mean place, as the loads of that model are. Rows of a diverged
-    run that hold no numbers are NaN. Raises PanelsimError as `point_of_ship`.
+    displacement less the elevation of the incident wave, positive where the point rises from the water: its
+    sum with the attribute `height_above_water` [m], that at rest, is the height over the wave. The wave is
+    taken where the point is, in a linear run at its mean place, as the loads of that model are. Rows of a
+    diverged run that hold no numbers are NaN. Raises PanelsimError as `point_of_ship`.
     """
     center = history.loading["center_of_gravity"]
     place = point_of_ship(point, center, history.mesh_vertices)

@@ -7,10 +7,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from panelsim.conventions import ComplexArray, FloatArray
+from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
-from panelsim.hydro.roll_damping.terms import RollDampingTerms
 from panelsim.hydro.transom import Transom
 from panelsim.loads.supplementary import Supplementary
 from panelsim.response.arguments import (
@@ -67,7 +66,7 @@ class Response(TransferFunctions):
         transfer = np.empty_like(self.transfer)
         count = len(self.wave_frequencies)
         for i, j in np.ndindex(shape):
-            more = wanted[i, j] - self.roll_damping[i].linear
+            more = float(wanted[i, j]) - self.roll_damping[i].linear
             waves = slice(j * count, (j + 1) * count)
             transfer[i, j] = self.motions.more_roll_damping(i, waves, more)
         dataset = self.dataset.assign(

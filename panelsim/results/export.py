@@ -25,10 +25,10 @@ def history_to_csv(history: History, folder: str | Path) -> tuple[Path, Path]:
     motions = [("time [s]", history.time), ("wave_elevation [m]", history.wave_elevation)]
     for name, suffix in (("displacement", ""), ("velocity", "/s"), ("acceleration", "/s2")):
         motions += _columns(name, [u + suffix for u in MOTION_UNITS], getattr(history, name))
-    for point, values in history.points.items():
+    for point, dataset in history.points.items():
         motions += [
             (f"{point}_{name} [{POINT_UNITS[name]}]", column)
-            for name, column in point_signals(values).items()
+            for name, column in point_signals(dataset).items()
         ]
     loads = [("time [s]", history.time)]
     for name, values in history.loads.items():

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from panelsim.conventions import DOF_NAMES, Dof, FloatArray
+from panelsim.conventions import DOF_NAMES, Dof, FloatArray, IntArray
 from panelsim.motion.history import History
 from panelsim.motion.point_motions import point_signals
 from panelsim.ship.points import POINT_UNITS
@@ -81,7 +81,7 @@ class Statistics:
 
 
 def display_unit(signal: str) -> tuple[str, float]:
-    """Unit in which people read a motion, an elevation or a signal of a point, and the factor to it from SI."""
+    """Unit in which people read a motion, elevation or signal of a point, and the factor to it from SI."""
     if signal in POINT_UNITS:
         return POINT_UNITS[signal], 1.0
     if signal in DOF_NAMES and Dof[signal.upper()] >= Dof.ROLL:
@@ -100,7 +100,6 @@ def statistics(history: History) -> Statistics:
     rows = np.flatnonzero(history.finite & after_ramp)
     time, signals = history.time[rows], signals[rows]
     each = _of_columns(time, signals)
-    points = {name: point_signals(motions) for name, motions in history.points.items()}
     return Statistics(
         motions=dict(zip(DOF_NAMES, each[:6], strict=True)),
         wave_elevation=each[6],
@@ -113,8 +112,7 @@ def statistics(history: History) -> Statistics:
         outcome_detail=str(history.attrs["outcome_detail"]),
         note=_note(history, len(rows)),
         points={
-            point: dict(zip(columns, _of_columns(time, np.array([*columns.values()])[:, rows].T), strict=True))
-            for point, columns in points.items()
+            name: _of_point(time, point_signals(motions), rows) for name, motions in history.points.items()
         },
     )
 
@@ -141,6 +139,13 @@ def _of_columns(time: FloatArray, columns: FloatArray) -> list[SignalStatistics]
     if len(time) < 2:
         return [NOTHING] * columns.shape[1]
     return [_signal_statistics(time, column) for column in columns.T]
+
+
+def _of_point(
+    time: FloatArray, signals: dict[str, FloatArray], rows: IntArray
+) -> dict[str, SignalStatistics]:
+    columns = np.column_stack([values[rows] for values in signals.values()])
+    return dict(zip(signals, _of_columns(time, columns), strict=True))
 
 
 def _signal_statistics(time: FloatArray, signal: FloatArray) -> SignalStatistics:

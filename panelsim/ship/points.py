@@ -27,7 +27,8 @@ def point_of_ship(
 ) -> FloatArray:
     """A point (3,) [m] in hull axes: midships, centreline, baseline.
 
-    `center_of_gravity` (3,) [m] of the ship in hull axes, `vertices` (V, 3) [m] of her mesh. Raises PanelsimError for what is no three finite numbers, and for a point far from the ship.
+    `center_of_gravity` (3,) [m] of the ship in hull axes, `vertices` (V, 3) [m] of her mesh. Raises
+    PanelsimError for what is no three finite numbers, and for a point far from the ship.
     """
     what = f"The point {name}".strip()
     try:
@@ -69,9 +70,7 @@ def points_of_ship(
         )
     for name in points:
         require_point_name(name)
-    return {
-        name: point_of_ship(place, center_of_gravity, vertices, name) for name, place in points.items()
-    }
+    return {name: point_of_ship(place, center_of_gravity, vertices, name) for name, place in points.items()}
 
 
 def require_point_name(name: object) -> None:

@@ -95,8 +95,8 @@ def _points_section(history: History, result: Statistics) -> str:
     parts = [
         "## Points of the ship",
         "Along translating earth axes, without the mean speed and without gravity. The relative motion is"
-        " the vertical displacement less the incident wave there: a point whose height at rest and relative motion"
-        " add up to less than 0 is under water.",
+        " the vertical displacement less the incident wave there: a point whose height at rest and relative"
+        " motion add up to less than 0 is under water.",
     ]
     for name, motions in history.points.items():
         x, y, z = motions.attrs["point"]
