@@ -66,6 +66,22 @@ def test_the_point_is_carried_by_the_turned_ship(tumbling: History, barge: Ship)
         )
 
 
+def test_a_ship_with_trim_lies_turned_in_her_axes(make_history: MakeHistory, barge: Ship) -> None:
+    """Points are given in hull axes: the arm and the height over the water are those of the ship afloat."""
+    trimmed = Ship(
+        barge.mesh, draft=2.0, trim=0.05, center_of_gravity=(None, 0.0, 1.5), gyradii=(2.0, 5.0, 5.0)
+    )
+    history = make_history(ship=trimmed)
+    point = np.array([8.0, -2.0, 5.0])
+    arm = trimmed.to_ship_axes(point)
+    found = point_motions(history, point)
+    motion = history.displacement[17]
+    expected = motion[:3] + rotation_to_earth(*motion[3:]) @ arm - arm
+    np.testing.assert_allclose(found["displacement"].values[17], expected, atol=1e-13)
+    # The bow lies deeper: 8 m ahead by 8 tan(0.05), and a metre of height is shorter by the cosine.
+    assert found.attrs["height_above_water"] == pytest.approx(3.0 * np.cos(0.05) - 8.0 * np.sin(0.05))
+
+
 def test_velocity_and_acceleration_are_the_rates_of_the_displacement(tumbling: History) -> None:
     """Central differences over 1 ms err by some 1e-6 of rates of order ten: 1e-5."""
     found = point_motions(tumbling, (8.0, -2.0, 5.0))
