@@ -1,4 +1,4 @@
-"""Cost of a response: 13 headings, 7 speeds and 40 frequencies, HALIFAX. Run: python benchmarks/response_cost.py
+"""Cost of a response: 13 headings, 7 speeds, 40 frequencies. Run: python benchmarks/response_cost.py
 
 CPU seconds of this process, best of three, coefficients stored: the table of transfer functions; the table
 with the RMS in a long-crested sea of every heading and speed, which solves the waves of that sea anew; and
