@@ -14,6 +14,7 @@ from panelsim.cli.show import out, progress_bars, warn
 from panelsim.cli.show_response import show_response
 from panelsim.conventions import KNOT, FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.loads.arguments import FASTEST
 from panelsim.response.arguments import different_headings, different_speeds
 from panelsim.ship.points import points_of_ship, require_point_name
 from panelsim.studies.case_response import case_response
@@ -84,7 +85,14 @@ def _headings(text: str) -> FloatArray:
 def _speeds(case: Case, text: str | None) -> FloatArray:
     """Speeds (S,) [m/s]."""
     if text is not None:
-        return different_speeds(numbers("--speeds", text, "knots") * KNOT)
+        knots = numbers("--speeds", text, "knots")
+        if knots.min() < 0.0 or knots.max() * KNOT > FASTEST:
+            raise PanelsimError(
+                "A speed is not that of a ship that goes ahead",
+                got=f"{text} knots",
+                allowed=f"0 to {FASTEST / KNOT:.0f} knots",
+            )
+        return different_speeds(knots * KNOT)
     return np.linspace(0.0, case.speed, 5) if case.speed > 0.0 else np.zeros(1)
 
 
