@@ -95,8 +95,8 @@ def test_heave_and_pitch_decay_about_as_the_matrices_say(
     """One damped sinusoid over 15 s from the release of a linear run.
 
     Measured in period and ratio: heave 0.4 % and 5 %, pitch 4 % and 10 %. A fifth of critical damping leaves
-    two swings, no steady oscillation, of which the matrices are: a fit that begins 2.5 s later has periods 10 %
-    shorter and other ratios.
+    two swings, no steady oscillation, of which the matrices are: a fit that begins 2.5 s later has periods
+    10 % shorter and other ratios.
     """
     mode = natural_periods(halifax, halifax_database)[dof.name.lower()]
     assert mode is not None
