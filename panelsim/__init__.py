@@ -79,10 +79,14 @@ _HOMES = {
     "hull_pressure": "loads.hull_pressure",
     "HullPressure": "loads.hull_pressure",
     "Supplementary": "loads.supplementary",
+    "RollDampingTerms": "hydro.roll_damping.terms",
     "natural_periods": "response.natural",
     "NaturalMode": "response.natural",
     "Response": "response.response",
     "response": "response.response",
+    "TransferFunctions": "response.transfer_functions",
+    "point_motions": "motion.point_motions",
+    "with_points": "motion.point_motions",
     "simulate": "motion.simulate",
     "simulate_batch": "motion.simulate",
     "History": "motion.history",
@@ -111,6 +115,7 @@ if TYPE_CHECKING:
     from panelsim.hull.panel_mesh import PanelMesh as PanelMesh
     from panelsim.hull.readers import read_mesh as read_mesh
     from panelsim.hydro.database import HydroDatabase as HydroDatabase
+    from panelsim.hydro.roll_damping.terms import RollDampingTerms as RollDampingTerms
     from panelsim.hydro.store import database_for as database_for
     from panelsim.loads.derivatives import pressure_stiffness as pressure_stiffness
     from panelsim.loads.hull_pressure import HullPressure as HullPressure
@@ -120,12 +125,15 @@ if TYPE_CHECKING:
     from panelsim.loads.wetted_surface import WettedSurface as WettedSurface
     from panelsim.loads.wetted_surface import pressure_force as pressure_force
     from panelsim.motion.history import History as History
+    from panelsim.motion.point_motions import point_motions as point_motions
+    from panelsim.motion.point_motions import with_points as with_points
     from panelsim.motion.simulate import simulate as simulate
     from panelsim.motion.simulate import simulate_batch as simulate_batch
     from panelsim.response.natural import NaturalMode as NaturalMode
     from panelsim.response.natural import natural_periods as natural_periods
     from panelsim.response.response import Response as Response
     from panelsim.response.response import response as response
+    from panelsim.response.transfer_functions import TransferFunctions as TransferFunctions
     from panelsim.results.statistics import statistics as statistics
     from panelsim.seaway.climate.limits import buckley_height as buckley_height
     from panelsim.seaway.climate.scatter import ScatterTable as ScatterTable

@@ -24,6 +24,7 @@ from panelsim.response.response import Response, response
 from panelsim.response.scattering import diffraction_loads
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.dispersion import encounter_frequency
+from panelsim.seaway.spectra.bretschneider import Bretschneider
 from panelsim.ship.bundled import load_ship
 from panelsim.ship.ship import Ship
 
@@ -248,6 +249,33 @@ def test_each_speed_has_its_own_roll_damping(halifax: Ship, halifax_database: Hy
     for i, (speed, own) in enumerate(zip([0.0, 10.0], terms, strict=True)):
         alone = response(halifax, halifax_database, **arguments, speeds=[speed], roll_damping=own)  # type: ignore[arg-type]
         np.testing.assert_allclose(both.transfer[i], alone.transfer[0], rtol=1e-12)
+
+
+def test_the_table_takes_roll_damping_by_speed_and_heading(
+    halifax: Ship, halifax_database: HydroDatabase
+) -> None:
+    """In place of the linear term: each row is that of a table with this damping from the start."""
+    arguments = {"frequencies": [0.5, 0.6], "wave_headings": [2.0, 1.0, 4.0]}
+    terms = RollDampingTerms(2e7, 1e9, 1e9)
+    table = response(halifax, halifax_database, **arguments, speeds=[0.0, 8.0], roll_damping=terms)  # type: ignore[arg-type]
+    assert np.all(table.dataset["roll_damping"].values == 2e7)
+    wanted = 1e7 * np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]])
+    found = table.with_roll_damping(wanted)
+    for i, j in np.ndindex(2, 3):
+        own = RollDampingTerms(wanted[i, j])
+        alone = response(halifax, halifax_database, **arguments, speeds=[0.0, 8.0], roll_damping=own)  # type: ignore[arg-type]
+        # Round-off of a solution of equations whose matrix spans nine orders of magnitude.
+        np.testing.assert_allclose(found.transfer[i, j], alone.transfer[i, j], rtol=1e-9)
+    np.testing.assert_array_equal(found.dataset["roll_damping"].values, wanted)
+    np.testing.assert_array_equal(found.at((0.0, 0.0, 5.0)).dataset["roll_damping"].values, wanted)
+    sea = Bretschneider(5.0, 11.0)
+    np.testing.assert_array_equal(found.rms(sea).values, table.rms(sea).values)
+    np.testing.assert_allclose(
+        found.with_roll_damping(np.full((2, 3), 2e7)).transfer, table.transfer, rtol=1e-9
+    )
+    for wrong in (wanted.T, -wanted, wanted * np.nan):
+        with pytest.raises(PanelsimError, match="one for each speed and heading"):
+            table.with_roll_damping(wrong)
 
 
 def test_transom_terms_damp_pitch(halifax: Ship, halifax_database: HydroDatabase) -> None:

@@ -11,8 +11,12 @@ from matplotlib.figure import Figure
 
 from panelsim.case import Case
 from panelsim.cli import main
-from panelsim.cli.respond import case_response, numbers
+from panelsim.cli.respond import numbers
 from panelsim.conventions import KNOT
+from panelsim.hydro.roll_damping.terms import RollDampingTerms
+from panelsim.response.natural import natural_periods
+from panelsim.response.response import response
+from panelsim.studies.case_response import case_response
 from panelsim.view.response_picture import polar_picture, transfer_picture
 
 ROOT = Path(__file__).parents[1]
@@ -120,6 +124,69 @@ def test_the_cases_own_speed_and_heading_are_always_there(quick: Case) -> None:
     np.testing.assert_allclose(np.rad2deg(found.table.wave_headings), [0.0, 90.0, 150.0])
 
 
+BARE = ["ship.panel_area=20", "supplementary.damping={surge=1e6, sway=2e6}"]
+
+
+def test_roll_damping_of_the_case_is_made_linear_for_its_sea() -> None:
+    """Ikeda's terms of each speed; transfer functions, natural roll and statistics have one damping."""
+    case = Case.load(EXAMPLE, [*BARE, 'roll_damping.method="ikeda"', 'run.model="linear"'])
+    database = case.database()
+    found = case_response(case, np.deg2rad([60.0, 150.0]), np.array([0.0, case.speed]), {})
+    terms = [case.roll_damping_at(speed, database) for speed in found.table.speeds]
+    assert terms[1].linear > 1.5 * terms[0].linear > 0.0  # lift
+    plain = response(
+        case.ship,
+        database,
+        frequencies=found.table.wave_frequencies,
+        wave_headings=found.table.wave_headings,
+        speeds=found.table.speeds,
+        supplementary=case.supplementary,
+        roll_damping=terms,
+    )
+    sea = plain.in_sea(case.seaway.point_spectrum)  # type: ignore[attr-defined]
+    np.testing.assert_array_equal(found.in_sea["rms"].values, sea["rms"].values)
+    equivalent = sea["equivalent_roll_damping"].values
+    assert np.all(equivalent > [[1.05 * each.linear] * 2 for each in terms]) and found.linearised
+    np.testing.assert_array_equal(found.table.dataset["roll_damping"].values, equivalent)
+    assert found.own == (1, 1)
+    natural = natural_periods(
+        case.ship, database, case.supplementary, RollDampingTerms(float(equivalent[1, 1]))
+    )
+    assert found.natural == natural
+
+
+def test_roll_damping_in_percent_is_linear_already() -> None:
+    """5 % of critical more than none: the damping of roll by itself tells it."""
+    free = ["ship.panel_area=20", "supplementary={stiffness={}, damping={}}"]
+    bare, damped = (
+        case_response(Case.load(EXAMPLE, [*free, *more]), np.array([1.0]), np.array([0.0]), {})
+        for more in ([], ['roll_damping={method="percent", critical_percent=5}'])
+    )
+    assert not damped.linearised
+    assert bare.natural["roll"] is not None and damped.natural["roll"] is not None
+    added = damped.natural["roll"].damping_ratio - bare.natural["roll"].damping_ratio
+    # Both are of the roll that is free to sway and yaw; the radiated waves couple them a little.
+    assert added == pytest.approx(0.05, rel=0.05)
+    at_rest = {"signal": "roll", "speed": 0.0}
+    assert np.all(damped.in_sea["rms"].sel(at_rest) < 0.9 * bare.in_sea["rms"].sel(at_rest))
+
+
+def test_the_damping_of_each_heading_is_printed(call, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    damping = ["--set", "roll_damping.method=ikeda", "--set", "supplementary.damping={sway=2e6}"]
+    points = ["--set", "points.bridge=[20.0, 0.0, 15.0]", "--point", "mast=0,0,30"]
+    target = tmp_path / "r.nc"
+    code, text, _ = call(EXAMPLE, "-o", target, *QUICK[:4], *damping, *points)
+    assert code == 0 and "made linear for this sea" in text
+    assert text.index("Point bridge") < text.index("Point mast")
+    assert text.count("RMS at") == 1 and "--speeds prints them" in text
+    with xr.open_datatree(target, engine="h5netcdf") as tree:
+        assert set(tree["points"].children) == {"bridge", "mast"}
+        own = tree["in_sea/equivalent_roll_damping"].values[-1, -1]
+        assert tree["roll_damping"].values[-1, -1] == own
+    row = next(line for line in text.splitlines() if line.split()[:1] == ["150"]).split()
+    assert float(row[-1]) == pytest.approx(1e-6 * own, abs=6e-4)
+
+
 def test_pictures_show_the_right_side_and_the_right_phase(
     quick: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -165,8 +232,15 @@ def test_pictures_show_the_right_side_and_the_right_phase(
         (["--speeds", "-5,10"], "goes ahead"),
         (["--speeds", "nan"], "--speeds"),
         (["--point", "bridge"], "NAME=X,Y,Z"),
-        (["--point", "a=1,2"], "three numbers"),
-        (["--point", "a=1,2,3", "--point", "a=1,2,3"], "NAME=X,Y,Z"),
+        (["--point", "mast", "--set", "points.bridge=[20.0, 0.0, 15.0]"], "the case has bridge"),
+        (["--point", "a=1,2"], "three finite numbers"),
+        (["--point", "a=1,2,nan"], "--point a"),
+        (["--point", "a/b=1,2,3"], "a/b"),
+        (["--point", "a=2000,0,15"], "far off the ship"),
+        (["--point", "a=1,2,3", "--point", "a=1,2,3"], "twice"),
+        (["--point", "a=1,2,3", "--set", "points.a=[20.0, 0.0, 15.0]"], "twice"),
+        (["--set", "points.a=[2000.0, 0.0, 15.0]"], "far off the ship"),
+        (["--set", 'roll_damping.method="ikeda"'], "counted twice"),
         (["--set", 'seaway={kind="calm"}'], "calm"),
         (["-o", "response.csv"], ".nc"),
     ],

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from panelsim.conventions import KNOT, STANDARD_GRAVITY, STRETCHINGS
 from panelsim.errors import PanelsimError
-from panelsim.motion.batch import wave_elevation
+from panelsim.motion.waves_met import wave_elevation
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.fixed import FixedSeaway, ship_position
 from panelsim.seaway.random import RandomSeaway

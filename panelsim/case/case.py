@@ -16,7 +16,7 @@ from panelsim.case.roll_damping_section import (
 from panelsim.case.schema import CaseFile
 from panelsim.case.seaway_section import SeawayBuilder
 from panelsim.case.ship_section import beside, build_ship
-from panelsim.conventions import KNOT
+from panelsim.conventions import KNOT, FloatArray
 from panelsim.hydro.database import HydroDatabase, Progress
 from panelsim.hydro.roll_damping.terms import RollDampingTerms
 from panelsim.hydro.store import database_for
@@ -26,6 +26,7 @@ from panelsim.seaway.seaways import Seaway
 from panelsim.seaway.steepness import BUCKLEY_STEEPNESS
 from panelsim.ship.bundled import default_panel_area
 from panelsim.ship.facts import ship_warnings
+from panelsim.ship.points import points_of_ship
 from panelsim.ship.ship import Ship
 
 # At this many a force on a medium mesh takes some three milliseconds, and an hour of sea four minutes.
@@ -98,6 +99,18 @@ class Case:
         """Roll damping of the run's model at its speed, with the natural roll that the coefficients give."""
         model = self.file.run.model
         return build_roll_damping(self.file.roll_damping, self.ship, database, speed=self.speed, model=model)
+
+    def roll_damping_at(self, speed: float, database: HydroDatabase) -> RollDampingTerms:
+        """Roll damping at a speed [m/s] with its quadratic and cubic terms, whatever the model of the run."""
+        terms = build_roll_damping(
+            self.file.roll_damping, self.ship, database, speed=speed, model="nonlinear"
+        )
+        return RollDampingTerms() if terms is None else terms
+
+    @cached_property
+    def points(self) -> dict[str, FloatArray]:
+        """Points of the ship (3,) [m] in hull axes by name; PanelsimError for those that are off her."""
+        return points_of_ship(self.file.points, self.ship.center_of_gravity, self.ship.vertices)
 
     def database(self, progress: Progress | None = None) -> HydroDatabase:
         """The hydrodynamic coefficients: from the case's file, stored before, or computed now."""

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, field_validator, model_validator
 
 from panelsim.case.seaway_schema import SeawaySection
-from panelsim.case.section import Degrees, Finite, NotNegative, Positive, Section
+from panelsim.case.section import Degrees, Finite, NotNegative, Place, Positive, Section
 from panelsim.conventions import STANDARD_GRAVITY
 
 # A run keeps some 400 bytes a step.
@@ -139,7 +139,7 @@ class RollDampingSection(Section):
 
 
 class CaseFile(Section):
-    """The whole file."""
+    """The whole file; `points` are [x, y, z] of the ship by name."""
 
     ship: ShipSection
     hydrodynamics: HydrodynamicsSection = HydrodynamicsSection()
@@ -147,6 +147,7 @@ class CaseFile(Section):
     run: RunSection
     supplementary: SupplementarySection = SupplementarySection()
     roll_damping: RollDampingSection = RollDampingSection()
+    points: dict[str, Place] = Field(default_factory=dict)
 
     @model_validator(mode="after")
     def _stokes(self) -> "CaseFile":

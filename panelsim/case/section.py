@@ -7,6 +7,7 @@ from pydantic import BaseModel, ConfigDict, Field, field_validator
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+Place = Annotated[list[Finite], Field(min_length=3, max_length=3)]  # m, in hull axes
 Degrees = Annotated[float, Field(ge=-360, le=360)]
 
 

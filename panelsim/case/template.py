@@ -93,6 +93,10 @@ capsize_angle_deg = 90          # end the run there; 0 = never
 # [roll_damping]
 # method = "percent"            # percent | terms | ikeda
 # critical_percent = 5
+
+# Points of the ship whose motions a run and `panelsim response` tell too (docs/response.md):
+# [points]
+# bridge = [{0.15 * form.length_pp:.3g}, 0.0, {3.0 * form.draft:.3g}]   # m: forward, to port, above the keel
 """
 
 

@@ -14,7 +14,7 @@ from rich.table import Table
 
 from panelsim.case import Case
 from panelsim.hull.defects import MeshDefect
-from panelsim.results.tables import statistics_table
+from panelsim.results.tables import point_table, statistics_table
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.random import RandomSeaway
 from panelsim.seaway.repeat import repeat_time
@@ -150,6 +150,8 @@ def show_case(case: Case) -> None:
         "supplementary stiffness": _by_motion(case.supplementary.stiffness),
         "supplementary damping": _by_motion(case.supplementary.damping),
         "roll damping": _roll_damping(case),
+        "points": "; ".join(f"{name} at {x:g}, {y:g}, {z:g} m" for name, (x, y, z) in case.points.items())
+        or "none",
         "coefficients": source,
         "run": f"{run.model}, {run.speed_knots:g} knots, ramp {run.ramp:g} s and {run.duration:g} s,"
         f" {run.steps} {run.stepper} steps of {run.time_step:g} s",
@@ -207,6 +209,8 @@ def show_result(result: "RunOutput", known: Sequence[str], imports: float) -> No
     statistics = result.statistics
     if statistics.duration > 0.0:
         out.print(statistics_table(statistics))
+        for point in statistics.points:
+            out.print(point_table(statistics, point))
     if statistics.note:
         say(statistics.note)
     factor = statistics.realtime_factor

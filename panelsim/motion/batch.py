@@ -2,8 +2,8 @@
 
 import math
 import time as clock
-from collections.abc import Sequence
-from dataclasses import astuple, dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, dataclass
 from typing import Any
 
 import numpy as np
@@ -21,10 +21,12 @@ from panelsim.motion.equations import EquationsOfMotion, ramp_factor
 from panelsim.motion.history import History
 from panelsim.motion.march import Limits, MemberRecord, Progress, Record, march, require_finite_start
 from panelsim.motion.notes import run_notes
+from panelsim.motion.point_motions import with_points
 from panelsim.motion.requirements import about_member, require_step_for_ship, require_step_for_waves
 from panelsim.motion.restart import GOES_ON, digest, restart_group, resumed
 from panelsim.motion.run_loads import RunLoads, run_loads
 from panelsim.motion.steppers import make_stepper
+from panelsim.motion.waves_met import wave_elevation
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.translating import TranslatingSeaway
 from panelsim.ship.ship import Ship
@@ -46,7 +48,10 @@ class Member:
 
 @dataclass(frozen=True)
 class Batch:
-    """Checked arguments of `simulate_batch`: SI units and radians, `case` as JSON text."""
+    """Checked arguments of `simulate_batch`: SI units and radians, `case` as JSON text.
+
+    `points` (3,) [m] of the ship by name, in hull axes.
+    """
 
     ship: Ship
     members: Sequence[Member]
@@ -64,6 +69,7 @@ class Batch:
     capsize_angle: float
     case: str
     notes: Sequence[str]
+    points: Mapping[str, FloatArray]
 
     def run(
         self,
@@ -219,7 +225,7 @@ class Batch:
             model=self.model,
             seeded=member.seaway_kind in ("random", "dataset"),
         )
-        return History.build(
+        history = History.build(
             time=time,
             displacement=run.displacement,
             velocity=run.velocity,
@@ -247,20 +253,8 @@ class Batch:
             restart=restart,
             roll_damping=_roll_damping(member),
         )
+        return with_points(history, self.points)
 
 
 def _roll_damping(member: Member) -> str:
     return "none" if member.roll_damping is None else describe_terms(member.roll_damping)
-
-
-def wave_elevation(sea: TranslatingSeaway, time: FloatArray, wave_factor: FloatArray) -> FloatArray:
-    """Elevation (T,) [m] at the moving origin, all amplitudes times `wave_factor` (T,).
-
-    The second order of a Stokes wave, ½ a² k cos 2θ, grows with the square of the factor.
-    """
-    elevation = sea.elevation(0.0, 0.0, time)
-    if not sea.components.second_order:
-        return wave_factor * elevation
-    linear = replace(sea, components=replace(sea.components, second_order=False))
-    first_order = linear.elevation(0.0, 0.0, time)
-    return wave_factor * first_order + wave_factor**2 * (elevation - first_order)

@@ -59,7 +59,7 @@ class History:
     every `load_<name>` (time, dof), `wave_elevation` (time) [m] at the moving origin. Groups: `mesh`
     (`vertices` (V, 3) [m] in ship axes, `panels` (N, 4), attribute `waterline` [m]), `loading`
     (mass, centre of gravity in hull axes, …) and `seaway` (one value a wave component); `restart` in a run
-    that can go on. Angles in rad.
+    that can go on, `points/NAME` for every named point of the ship. Angles in rad.
     """
 
     tree: xr.DataTree
@@ -239,6 +239,12 @@ class History:
     def seaway_attrs(self) -> dict[str, Any]:
         """Of the waves: kind, stretching, ramp [s]."""
         return {str(name): value for name, value in self.tree["seaway"].attrs.items()}
+
+    @cached_property
+    def points(self) -> dict[str, xr.Dataset]:
+        """What named points of the ship did, by name, as `point_motions` tells it; often none."""
+        group = self.tree.children.get("points")
+        return {} if group is None else {name: node.to_dataset() for name, node in group.children.items()}
 
     def same_bits(self, other: "History") -> bool:
         """Whether every variable of both runs agrees bit by bit; timings and other attributes may differ."""

@@ -28,6 +28,7 @@ from panelsim.motion.requirements import (
     six_numbers_each,
 )
 from panelsim.seaway.seaways import Seaway
+from panelsim.ship.points import points_of_ship
 from panelsim.ship.ship import Ship
 
 
@@ -56,6 +57,7 @@ def simulate(
     seed: int | None = None,
     notes: Sequence[str] = (),
     resume: History | None = None,
+    points: Mapping[str, ArrayLike] | None = None,
 ) -> History:
     """Run the ship through the sea and keep every motion and every load.
 
@@ -74,7 +76,8 @@ def simulate(
     diverges, or on an interrupt; `History.outcome` says which. `progress(done, total)` is told the
     seconds now and then. `case`, `seed` and `notes` are kept in the history. `resume` is the history of the
     beginning of this very run, finished earlier or interrupted: it goes on there, and the history
-    is, bit for bit, that of the whole run.
+    is, bit for bit, that of the whole run. `points` are (3,) [m] of the ship in hull axes, by name; what each
+    does is in `History.points`, as `point_motions` finds it.
 
     Raises PanelsimError for bad arguments, for a database of another ship and a history of another run.
     """
@@ -102,6 +105,7 @@ def simulate(
         seeds=[seed],
         notes=notes,
         resume=None if resume is None else [resume],
+        points=points,
     )
     return history
 
@@ -131,6 +135,7 @@ def simulate_batch(
     seeds: Sequence[int | None] | None = None,
     notes: Sequence[str] = (),
     resume: Sequence[History] | None = None,
+    points: Mapping[str, ArrayLike] | None = None,
 ) -> tuple[History, ...]:
     """Run the ship through many seas at once, and keep every motion and every load of each run.
 
@@ -182,6 +187,7 @@ def simulate_batch(
         capsize_angle=capsize_angle,
         case=kept_case,
         notes=notes,
+        points=points_of_ship(points, ship.center_of_gravity, ship.vertices),
     )
     return batch.run(*start, progress, _histories(resume, len(members)))
 

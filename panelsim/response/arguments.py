@@ -16,7 +16,6 @@ from panelsim.seaway.checks import require_angles
 from panelsim.ship.ship import Ship
 
 HIGHEST_FREQUENCY = 50.0  # rad/s; a wave of 2.5 cm
-FARTHEST = 1e4  # m, from the centre of gravity to a point of the ship
 
 RollDamping = RollDampingTerms | Sequence[RollDampingTerms] | None
 
@@ -81,18 +80,6 @@ def terms_by_speed(roll_damping: RollDamping, speeds: int) -> tuple[RollDampingT
             allowed=f"RollDampingTerms, or {speeds} of them",
         )
     return given
-
-
-def point_of_ship(point: ArrayLike) -> FloatArray:
-    """A point (3,) [m] in hull axes; PanelsimError for anything else."""
-    array = _row("coordinates of the point", point, "m")
-    if array.shape != (3,) or np.abs(array).max() > FARTHEST:
-        raise PanelsimError(
-            "A point of the ship is three numbers in hull axes",
-            got=repr(point)[:60],
-            allowed="(x forward of midships, y to port, z above the baseline) in m",
-        )
-    return array
 
 
 def _row(name: str, values: ArrayLike, unit: str) -> FloatArray:

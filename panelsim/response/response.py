@@ -1,37 +1,30 @@
-"""Transfer functions of a ship by speed, wave heading and wave frequency, and her motions in a sea."""
+"""The linear response of a ship: transfer functions by speed, wave heading and wave frequency."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from pathlib import Path
+from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from panelsim.conventions import ComplexArray, FloatArray
+from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
-from panelsim.files import write_whole
 from panelsim.hydro.database import HydroDatabase
-from panelsim.hydro.roll_damping.terms import RollDampingTerms
 from panelsim.hydro.transom import Transom
 from panelsim.loads.supplementary import Supplementary
 from panelsim.response.arguments import (
     RollDamping,
     different_headings,
     different_speeds,
-    point_of_ship,
     require_parts,
     rising_frequencies,
     terms_by_speed,
 )
-from panelsim.response.in_sea import in_sea
 from panelsim.response.linear_ship import LinearShip, MotionsInWaves
 from panelsim.response.notes import response_notes
 from panelsim.response.signals import PointSignals, Signals, SixMotions
-from panelsim.seaway.direction.directional_spectrum import DirectionalSpectrum
-from panelsim.seaway.direction.spreading import Spreading
-from panelsim.seaway.seaways import Seaway
-from panelsim.seaway.spectra.point_spectrum import PointSpectrum
+from panelsim.response.transfer_functions import TransferFunctions
+from panelsim.ship.points import point_of_ship
 from panelsim.ship.ship import Ship
 
 FORMAT = "panelsim response 1"
@@ -45,121 +38,42 @@ _BY_WAVE = ("speed", "wave_heading", "wave_frequency")
 
 
 @dataclass(frozen=True, eq=False)
-class TransferFunctions:
-    """Linear signals of a ship in waves: a table of transfer functions, and statistics in any sea.
-
-    `dataset` holds the complex `transfer` (speed, wave_heading, wave_frequency, signal) per metre of wave
-    amplitude, exp(+iω_e t), and the signed `encounter_frequency` [rad/s]. Statistics in a sea do not read the
-    table: the equations of motion are solved at the waves of that sea.
-    """
-
-    dataset: xr.Dataset
-    linear_ship: LinearShip
-    signals: Signals
-    roll_damping: tuple[RollDampingTerms, ...]
-
-    def __post_init__(self) -> None:
-        for variable in self.dataset.variables.values():
-            variable.values.setflags(write=False)
-
-    @property
-    def transfer(self) -> ComplexArray:
-        """Complex amplitudes (S, H, F, K) per metre of wave amplitude."""
-        return np.asarray(self.dataset["transfer"].values)
-
-    @property
-    def encounter_frequency(self) -> FloatArray:
-        """Signed ω_e (S, H, F) [rad/s]."""
-        return np.asarray(self.dataset["encounter_frequency"].values)
-
-    @property
-    def speeds(self) -> FloatArray:
-        """Speeds (S,) [m/s]."""
-        return np.asarray(self.dataset["speed"].values)
-
-    @property
-    def wave_headings(self) -> FloatArray:
-        """Wave headings (H,) [rad]."""
-        return np.asarray(self.dataset["wave_heading"].values)
-
-    @property
-    def wave_frequencies(self) -> FloatArray:
-        """Wave frequencies (F,) [rad/s]."""
-        return np.asarray(self.dataset["wave_frequency"].values)
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """Sentences on what the figures do not hold; often none."""
-        return tuple(str(self.dataset.attrs["notes"]).splitlines())
-
-    def in_sea(
-        self,
-        sea: Seaway | PointSpectrum | DirectionalSpectrum,
-        *,
-        wave_headings: ArrayLike | None = None,
-        ship_headings: ArrayLike | None = None,
-        spreading: Spreading | None = None,
-    ) -> xr.Dataset:
-        """Statistics in a sea by speed, course and signal.
-
-        A seaway is the sum of its components, Σ ½|H a|²; it is met on its own course or on the compass
-        courses `ship_headings` (H,) [rad]. A point spectrum is long-crested along each of `wave_headings`
-        β (H,) [rad], by default those of the table, or spread about it by `spreading`. A directional spectrum
-        is met on `ship_headings`, by default 0. Spectra are integrated over wave frequency and direction.
-
-        The dataset holds `rms`, `zero_crossing_period` 2π√(m0/m2) and `peak_period` [s] (speed, heading,
-        signal), with moments m_n = ∫ |ω_e|ⁿ |H|² S dω, and `equivalent_roll_damping` [N m s] (speed,
-        heading), which stands for quadratic and cubic roll damping in that sea. NaN where nothing moves, and
-        for drift that nothing holds. Raises PanelsimError for seas of another kind and headings that do not
-        belong to them, and where the coefficients do not reach.
-        """
-        headings = self.wave_headings if isinstance(sea, PointSpectrum) else None
-        return in_sea(
-            self.linear_ship,
-            self.signals,
-            self.speeds,
-            self.roll_damping,
-            sea,
-            wave_headings=headings if wave_headings is None else wave_headings,
-            ship_headings=ship_headings,
-            spreading=spreading,
-        )
-
-    def rms(
-        self,
-        sea: Seaway | PointSpectrum | DirectionalSpectrum,
-        *,
-        wave_headings: ArrayLike | None = None,
-        ship_headings: ArrayLike | None = None,
-        spreading: Spreading | None = None,
-    ) -> xr.DataArray:
-        """RMS (speed, heading, signal) in a sea; arguments as in `in_sea`."""
-        found = self.in_sea(
-            sea, wave_headings=wave_headings, ship_headings=ship_headings, spreading=spreading
-        )
-        return found["rms"]
-
-    def save(self, path: str | Path, *, overwrite: bool = False) -> Path:
-        """Write NetCDF-4, complex values as two variables, `…_real` and `…_imag`.
-
-        An existing file is refused unless `overwrite`.
-        """
-        path = Path(path)
-        if path.exists() and not overwrite:
-            raise PanelsimError(
-                "The response would overwrite a file", got=path, remedy="give another name or overwrite=True"
-            )
-        write_whole(path, bytes(real_valued(self.dataset).to_netcdf(engine="h5netcdf")))
-        return path
-
-
-@dataclass(frozen=True, eq=False)
 class Response(TransferFunctions):
     """Transfer functions of the six motions at the centre of gravity, signal = surge … yaw.
 
     Besides them the `dataset` has the loads `froude_krylov` (wave_heading, wave_frequency, signal) and
     `diffraction` (speed, wave_heading, wave_frequency, signal) per metre of wave amplitude [N/m, N].
+    `motions` are those of the same waves with the linear terms of the roll damping.
     """
+
+    motions: MotionsInWaves
+
+    def with_roll_damping(self, damping: ArrayLike) -> "Response":
+        """The table with linear roll damping (S, H) [N m s] in place of the linear terms.
+
+        `damping` may be the `equivalent_roll_damping` of a sea on the headings of the table, and is then what
+        stands for quadratic and cubic terms there. Motions in a sea go on to find their own. Raises
+        PanelsimError for values that are not one for each speed and heading, none below 0.
+        """
+        shape = self.transfer.shape[:2]
+        wanted = np.array(damping, dtype=float)
+        if wanted.shape != shape or not (np.isfinite(wanted).all() and (wanted >= 0.0).all()):
+            raise PanelsimError(
+                "The roll damping is not one for each speed and heading",
+                got=f"{wanted.shape} values, {np.array2string(wanted, threshold=4)}",
+                allowed=f"{shape}, each 0 N m s or more",
+            )
+        transfer = np.empty_like(self.transfer)
+        count = len(self.wave_frequencies)
+        for i, j in np.ndindex(shape):
+            more = float(wanted[i, j]) - self.roll_damping[i].linear
+            waves = slice(j * count, (j + 1) * count)
+            transfer[i, j] = self.motions.more_roll_damping(i, waves, more)
+        dataset = self.dataset.assign(
+            transfer=self.dataset["transfer"].copy(data=transfer),
+            roll_damping=self.dataset["roll_damping"].copy(data=wanted),
+        )
+        return replace(self, dataset=dataset)
 
     def at(self, point: ArrayLike) -> TransferFunctions:
         """What a point of the ship does: `point` (3,) [m] in hull axes (midships, centreline, baseline).
@@ -168,7 +82,7 @@ class Response(TransferFunctions):
         PanelsimError for what is no point.
         """
         ship = self.linear_ship.ship
-        place = point_of_ship(point)
+        place = point_of_ship(point, ship.center_of_gravity, ship.vertices)
         signals = PointSignals(ship.to_ship_axes(place), ship.gravity)
         by_wave = np.broadcast_to(self.wave_frequencies, self.encounter_frequency.shape)
         headings = np.broadcast_to(self.wave_headings[:, None], self.encounter_frequency.shape)
@@ -176,7 +90,8 @@ class Response(TransferFunctions):
         dataset = xr.Dataset(
             {
                 "transfer": ((*_BY_WAVE, "signal"), transfer),
-                "encounter_frequency": (_BY_WAVE, self.encounter_frequency.copy()),
+                "encounter_frequency": (_BY_WAVE, self.encounter_frequency.copy(), {"units": "rad/s"}),
+                "roll_damping": self.dataset["roll_damping"].copy(),
             },
             coords=_coordinates(self.speeds, self.wave_headings, self.wave_frequencies, signals),
             attrs=self.dataset.attrs | {"point": place.tolist()},
@@ -214,13 +129,15 @@ def response(
     waves = np.stack(np.meshgrid(omega, beta), axis=-1).reshape(-1, 2)
     motions = linear.in_waves(waves[:, 0], waves[:, 1], speed, np.array([term.linear for term in terms]))
     dataset = _dataset(motions, omega, beta, speed)
+    by_course = np.repeat([[term.linear] for term in terms], len(beta), axis=1)
+    dataset["roll_damping"] = ("speed", "wave_heading"), by_course, {"units": "N m s"}
     dataset.attrs |= {
         "format": FORMAT,
         "ship": ship.name,
         **_CONVENTIONS,
         "notes": "\n".join(response_notes(linear, motions, speed)),
     }
-    return Response(dataset, linear, SixMotions(), terms)
+    return Response(dataset, linear, SixMotions(), terms, motions)
 
 
 def _dataset(motions: MotionsInWaves, omega: FloatArray, beta: FloatArray, speed: FloatArray) -> xr.Dataset:
@@ -247,12 +164,3 @@ def _coordinates(
         "signal": ("signal", list(signals.names)),
         "unit": ("signal", list(signals.units)),
     }
-
-
-def real_valued(dataset: xr.Dataset) -> xr.Dataset:
-    """The dataset with every complex variable as two, `…_real` and `…_imag`: NetCDF has no complex type."""
-    complex_names = [str(name) for name, values in dataset.items() if np.iscomplexobj(values)]
-    parts: dict[str, xr.DataArray] = {}
-    for name in complex_names:
-        parts |= {f"{name}_real": dataset[name].real, f"{name}_imag": dataset[name].imag}
-    return dataset.drop_vars(complex_names).assign(parts)

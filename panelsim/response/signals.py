@@ -7,8 +7,7 @@ import numpy as np
 
 from panelsim.conventions import DOF_NAMES, ComplexArray, Dof, FloatArray
 from panelsim.seaway.dispersion import wavenumber
-
-_AXES = ("x", "y", "z")
+from panelsim.ship.points import POINT_UNITS
 
 
 class Signals(Protocol):
@@ -65,11 +64,8 @@ class PointSignals:
     arm: FloatArray
     gravity: float
 
-    names = (
-        *(f"{kind}_{axis}" for kind in ("displacement", "velocity", "acceleration") for axis in _AXES),
-        "relative_motion",
-    )
-    units = ("m", "m", "m", "m/s", "m/s", "m/s", "m/s2", "m/s2", "m/s2", "m")
+    names = tuple(POINT_UNITS)
+    units = tuple(POINT_UNITS.values())
     drift_with: tuple[Dof | None, ...] = (*2 * (Dof.SURGE, Dof.SWAY, None), *4 * (None,))
 
     def of(

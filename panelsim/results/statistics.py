@@ -6,15 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from panelsim.conventions import DOF_NAMES, Dof, FloatArray
+from panelsim.conventions import DOF_NAMES, Dof, FloatArray, IntArray
 from panelsim.motion.history import History
+from panelsim.motion.point_motions import point_signals
+from panelsim.ship.points import POINT_UNITS
 
 STILL = 1e-9  # m or rad: rounding, on any ship or model
 
 
 @dataclass(frozen=True)
 class SignalStatistics:
-    """Mean, RMS about the mean, extremes [m or rad] and mean up-crossing period [s]; None: not defined."""
+    """Mean, RMS about the mean, extremes [SI] and mean up-crossing period [s]; None: not defined."""
 
     mean: float | None
     rms: float | None
@@ -30,6 +32,7 @@ NOTHING = SignalStatistics(None, None, None, None, None)
 class Statistics:
     """Statistics of the six motions and of the wave at the moving origin, in m, rad and s.
 
+    `points` has those of what each named point of the ship does, by the names of `POINT_UNITS`.
     `duration` is the time that they cover: from the ramp to the end of the run. `realtime_factor` is
     simulated seconds per CPU second of the time loop. `note` says why values are missing, if they are.
     """
@@ -44,6 +47,7 @@ class Statistics:
     outcome: str
     outcome_detail: str
     note: str
+    points: dict[str, dict[str, SignalStatistics]]
 
     @property
     def significant_wave_height_realised(self) -> float | None:
@@ -60,6 +64,11 @@ class Statistics:
         tables["wave_elevation"] = _entry(self.wave_elevation, "wave_elevation")
         tables["significant_wave_height_realised_m"] = self.significant_wave_height_realised
         tables["duration_s"] = self.duration
+        if self.points:
+            tables["points"] = {
+                point: {name: _entry(values, name) for name, values in signals.items()}
+                for point, signals in self.points.items()
+            }
         tables["ramp_s"] = self.ramp
         tables["simulated_seconds"] = self.simulated_seconds
         tables["cpu_seconds"] = self.cpu_seconds
@@ -72,7 +81,9 @@ class Statistics:
 
 
 def display_unit(signal: str) -> tuple[str, float]:
-    """Unit in which people read a motion or elevation, and the factor to it from m or rad."""
+    """Unit in which people read a motion, elevation or signal of a point, and the factor to it from SI."""
+    if signal in POINT_UNITS:
+        return POINT_UNITS[signal], 1.0
     if signal in DOF_NAMES and Dof[signal.upper()] >= Dof.ROLL:
         return "deg", 180.0 / np.pi
     return "m", 1.0
@@ -88,7 +99,7 @@ def statistics(history: History) -> Statistics:
     after_ramp = history.time >= history.attrs["ramp"] - 0.5 * history.attrs["time_step"]
     rows = np.flatnonzero(history.finite & after_ramp)
     time, signals = history.time[rows], signals[rows]
-    each = [_signal_statistics(time, column) for column in signals.T] if len(rows) > 1 else [NOTHING] * 7
+    each = _of_columns(time, signals)
     return Statistics(
         motions=dict(zip(DOF_NAMES, each[:6], strict=True)),
         wave_elevation=each[6],
@@ -100,6 +111,9 @@ def statistics(history: History) -> Statistics:
         outcome=history.outcome,
         outcome_detail=str(history.attrs["outcome_detail"]),
         note=_note(history, len(rows)),
+        points={
+            name: _of_point(time, point_signals(motions), rows) for name, motions in history.points.items()
+        },
     )
 
 
@@ -118,6 +132,20 @@ def zero_crossing_period(time: FloatArray, signal: FloatArray) -> float | None:
     low, high = about_mean[before], about_mean[before + 1]
     crossing = time[before] - low / (high - low) * (time[before + 1] - time[before])
     return float((crossing[-1] - crossing[0]) / (len(crossing) - 1))
+
+
+def _of_columns(time: FloatArray, columns: FloatArray) -> list[SignalStatistics]:
+    """Statistics of the columns (T, N), one each; NOTHING for less than two rows."""
+    if len(time) < 2:
+        return [NOTHING] * columns.shape[1]
+    return [_signal_statistics(time, column) for column in columns.T]
+
+
+def _of_point(
+    time: FloatArray, signals: dict[str, FloatArray], rows: IntArray
+) -> dict[str, SignalStatistics]:
+    columns = np.column_stack([values[rows] for values in signals.values()])
+    return dict(zip(signals, _of_columns(time, columns), strict=True))
 
 
 def _signal_statistics(time: FloatArray, signal: FloatArray) -> SignalStatistics:

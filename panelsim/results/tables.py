@@ -1,9 +1,9 @@
 """The statistics of a run as a table: on a terminal with rich, and as Markdown for pages and recordings."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from panelsim.results.statistics import Statistics, display_unit
+from panelsim.results.statistics import SignalStatistics, Statistics, display_unit
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -11,28 +11,53 @@ if TYPE_CHECKING:
 HEADER = ("motion", "unit", "mean", "RMS", "max", "min", "zero-crossing period [s]")
 
 
+Signals = Mapping[str, SignalStatistics]
+
+
 def statistics_table(statistics: Statistics) -> "Table":
     """A rich table of the six motions and the wave at the moving origin, angles in degrees."""
+    return _table(f"From the ramp to the end, {statistics.duration:g} s", _motions(statistics))
+
+
+def point_table(statistics: Statistics, point: str) -> "Table":
+    """A rich table of what a named point of the ship does."""
+    return _table(point, statistics.points[point])
+
+
+def statistics_markdown(statistics: Statistics) -> str:
+    """The table of motions as Markdown."""
+    return _markdown(_motions(statistics))
+
+
+def point_markdown(statistics: Statistics, point: str) -> str:
+    """The table of a named point as Markdown."""
+    return _markdown(statistics.points[point])
+
+
+def _motions(statistics: Statistics) -> Signals:
+    return statistics.motions | {"wave_elevation": statistics.wave_elevation}
+
+
+def _table(title: str, signals: Signals) -> "Table":
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(title=f"From the ramp to the end, {statistics.duration:g} s")
+    table = Table(title=title)
     for column in HEADER:
         # As text: "[s]" would be taken for markup.
         table.add_column(Text(column), justify="left" if column in ("motion", "unit") else "right")
-    for row in _rows(statistics):
+    for row in _rows(signals):
         table.add_row(*row)
     return table
 
 
-def statistics_markdown(statistics: Statistics) -> str:
-    """The same table as Markdown."""
-    lines = [HEADER, ("---", "---", "---:", "---:", "---:", "---:", "---:"), *_rows(statistics)]
+def _markdown(signals: Signals) -> str:
+    lines = [HEADER, ("---", "---", "---:", "---:", "---:", "---:", "---:"), *_rows(signals)]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
-def _rows(statistics: Statistics) -> Iterator[tuple[str, ...]]:
-    for name, values in [*statistics.motions.items(), ("wave_elevation", statistics.wave_elevation)]:
+def _rows(signals: Signals) -> Iterator[tuple[str, ...]]:
+    for name, values in signals.items():
         unit, factor = display_unit(name)
         amounts = (values.mean, values.rms, values.max, values.min)
         cells = ["–" if v is None else f"{factor * v:z.3f}" for v in amounts]

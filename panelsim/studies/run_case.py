@@ -53,7 +53,7 @@ def run_case(
     refuse_occupied_folder(folder, force=force)
     seconds: dict[str, float] = {}
     with _timed(seconds, "ship and waves"):
-        _ = case.ship, case.seaway, case.supplementary  # whatever is wrong with them comes first
+        _ = case.ship, case.seaway, case.supplementary, case.points  # whatever is wrong with them comes first
     make_output_folder(folder)
     try:
         return _run_into(folder, case, seconds, on_coefficients, on_run)
@@ -95,6 +95,7 @@ def _run_into(
             case=case.resolved(),
             seed=case.file.seaway.seed if case.file.seaway.kind == "random" else None,
             notes=case.warnings(),
+            points=case.points,
         )
     with _timed(seconds, "history and statistics"):
         for name in OLD_FILES:

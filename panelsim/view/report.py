@@ -9,7 +9,7 @@ from panelsim.conventions import KNOT
 from panelsim.files import replacing
 from panelsim.motion.history import History
 from panelsim.results.statistics import Statistics, statistics
-from panelsim.results.tables import statistics_markdown
+from panelsim.results.tables import point_markdown, statistics_markdown
 from panelsim.view.plots import plot_loads, plot_motions, plot_spectra
 
 OUTCOME_SENTENCES = {
@@ -45,6 +45,7 @@ def _page(history: History) -> str:
         _motions_section(result),
         "![The waves and the six motions](motions.png)",
         "![Spectra of the waves and the motions](spectra.png)",
+        _points_section(history, result),
         "## Loads",
         "RMS of every load about its mean, from the ramp to the end. Forces act in translating earth axes;"
         " moments are about the centre of gravity, conjugate to roll, pitch and yaw.",
@@ -86,6 +87,26 @@ def _motions_section(result: Statistics) -> str:
         text += f" The waves that the ship met had a significant height of {height:.3g} m."
     signs = "Positive: forward, to port, up; starboard down, bow down, bow to port."
     return f"{text} {signs}\n\n{statistics_markdown(result)}".rstrip()
+
+
+def _points_section(history: History, result: Statistics) -> str:
+    if not result.points:
+        return ""
+    parts = [
+        "## Points of the ship",
+        "Along translating earth axes, without the mean speed and without gravity. The relative motion is"
+        " the vertical displacement less the incident wave there: a point whose height at rest and relative"
+        " motion add up to less than 0 is under water.",
+    ]
+    for name, motions in history.points.items():
+        x, y, z = motions.attrs["point"]
+        height = motions.attrs["height_above_water"]
+        parts += [
+            f"**{name}**: {x:g} m forward of midships, {y:g} m to port, {z:g} m above the baseline; at rest"
+            f" {abs(height):.3g} m {'above' if height >= 0.0 else 'below'} the water.",
+            point_markdown(result, name).rstrip(),
+        ]
+    return "\n\n".join(parts)
 
 
 def _facts(history: History) -> dict[str, str]:

@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
+from matplotlib.ticker import MaxNLocator
 
 from panelsim.conventions import DOF_NAMES, KNOT, Dof, FloatArray
 from panelsim.response.response import Response
@@ -16,7 +17,10 @@ from panelsim.seaway.dispersion import wavenumber
 from panelsim.view.plots import COLORS, INK, plain, save
 
 MOST_HEADINGS = 5
-_LEAST = 1e-6  # amplitudes below it have no phase
+# Of the largest amplitude of a motion: below it a phase says nothing, and would tangle the picture.
+_LEAST = 0.03
+_STILL = 1e-6  # m/m or rad/rad
+_HEADINGS = "wave heading\n(0° following,\n180° head)"
 
 
 def transfer_picture(table: Response, own_heading: float, speed: float, path: Path) -> Path:
@@ -35,13 +39,14 @@ def transfer_picture(table: Response, own_heading: float, speed: float, path: Pa
     slope = wavenumber(table.wave_frequencies, table.linear_ship.ship.gravity)
     for dof in Dof:
         amplitude, phase = axes[2 * (dof // 3), dof % 3], axes[2 * (dof // 3) + 1, dof % 3]
-        for n, j in enumerate(chosen):
-            values = table.transfer[i, j, :, dof] / (1.0 if dof < Dof.ROLL else slope)
+        motions = table.transfer[i, chosen, :, dof] / (1.0 if dof < Dof.ROLL else slope)
+        least = max(_STILL, _LEAST * float(np.abs(motions).max()))
+        for n, (j, values) in enumerate(zip(chosen, motions, strict=True)):
             width = 2.2 if j == own else 1.0
             label = f"{np.rad2deg(table.wave_headings[j]):.4g}°"
             color = COLORS[n % len(COLORS)]
             amplitude.plot(table.wave_frequencies, np.abs(values), color=color, linewidth=width, label=label)
-            _phase_line(phase, table.wave_frequencies, values, color, width)
+            _phase_line(phase, table.wave_frequencies, values, least, color, width)
         unit = "m/m" if dof < Dof.ROLL else "rad/rad"
         _label(amplitude, f"{DOF_NAMES[dof]} [{unit}]")
         _label(phase, "phase lead [deg]")
@@ -51,18 +56,24 @@ def transfer_picture(table: Response, own_heading: float, speed: float, path: Pa
     for axis in axes[-1]:
         axis.set_xlabel("wave frequency ω [rad/s]", fontsize=9)
     figure.legend(
-        *axes[0, 0].get_legend_handles_labels(), loc="outside right upper", fontsize=8, title="wave heading"
+        *axes[0, 0].get_legend_handles_labels(),
+        loc="outside right upper",
+        fontsize=8,
+        title=_HEADINGS,
     )
     figure.suptitle(
         f"{table.dataset.attrs['ship']} at {table.speeds[i] / KNOT:.3g} knots, per wave amplitude"
+        f" and slope; no phase below {100 * _LEAST:g} % of the largest amplitude"
     )
     return save(figure, path)
 
 
-def _phase_line(axis: Axes, omega: FloatArray, values: np.ndarray, color: str, width: float) -> None:
-    """Phase in degrees, broken where it jumps by a turn and left out where nothing moves."""
+def _phase_line(
+    axis: Axes, omega: FloatArray, values: np.ndarray, least: float, color: str, width: float
+) -> None:
+    """Phase in degrees, broken where it jumps by a turn and left out where the amplitude is below `least`."""
     phase = np.rad2deg(np.angle(values))
-    phase[np.abs(values) < _LEAST] = np.nan
+    phase[np.abs(values) < least] = np.nan
     jumps = np.flatnonzero(np.abs(np.diff(phase)) > 180.0) + 1
     axis.plot(np.insert(omega, jumps, np.nan), np.insert(phase, jumps, np.nan), color=color, linewidth=width)
 
@@ -95,7 +106,10 @@ def polar_picture(in_sea: xr.Dataset, path: Path) -> Path:
         axis.set_xticks(np.deg2rad([0, 90, 180, 270]))
         axis.set_xticklabels(["bow", "starboard", "stern", "port"])
         axis.set_ylim(bottom=0.0)
+        axis.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
         axis.tick_params(colors=INK, labelsize=8)
+        axis.tick_params(axis="x", pad=10)
+        axis.grid(color="#dddddd", linewidth=0.6)
         axis.set_title(f"{DOF_NAMES[dof]}, RMS [{unit}]", fontsize=10)
     figure.axes[2].legend(frameon=False, fontsize=8, loc="upper left", bbox_to_anchor=(0.95, 1.1))
     figure.suptitle("RMS by where the waves come from")
