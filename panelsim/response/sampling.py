@@ -1,10 +1,10 @@
 """How far the variance of one run may lie from that of its sea: the sampling error.
 
-A run in N waves is x = Σ c_i cos(ω_i t + ε_i), and its measured variance v = (1/T) ∫ x² dt over T seconds. With
-phases that are independent and uniform the mean of v is Σ m_i with m_i = ½ c_i², whatever T, and the pairs of
-waves that T does not tell apart scatter it:
+A run in N waves is x = Σ c_i cos(ω_i t + ε_i), its measured variance v = (1/T) ∫ x² dt over T seconds. With
+phases that are independent and uniform the mean of v is Σ m_i, m_i = ½ c_i², whatever T, and the pairs of
+waves that T does not tell apart scatter it: with s(x) = sin x/x,
 
-    Var v = 2 Σ_{i<j} m_i m_j [s²((ω_i - ω_j) T/2) + s²((ω_i + ω_j) T/2)] + ½ Σ_i m_i² s²(ω_i T),  s(x) = sin x/x.
+    Var v = 2 Σ_{i<j} m_i m_j [s²((ω_i - ω_j) T/2) + s²((ω_i + ω_j) T/2)] + ½ Σ_i m_i² s²(ω_i T).
 
 For many waves close together this is (2π/T) ∫ S² dω, which Bendat and Piersol, Random Data (2010), section
 8.2, have for a Gaussian process.
