@@ -317,10 +317,10 @@ def page(study: Study, found: list[Comparison]) -> str:
             "",
             "So neither the time step nor the runs limit the agreement, but the memory of the waves:"
             " retardation functions of finite length from damping at finitely many frequencies, and the"
-            " exponentials that stand for them. It shows most in sway, roll and yaw near 0.5 rad/s of encounter,"
-            " where the yaw of the ship on her spring has 2 to 3 % of critical damping at 0 and 10 knots, almost"
-            " all of it by waves. In beam seas the ends of the ship, which are not alike, leave"
-            " small surge and pitch; over these peaks the same difference is larger.",
+            " exponentials that stand for them. It shows most in sway, roll and yaw near 0.5 rad/s of"
+            " encounter, where the yaw of the ship on her spring has 2 to 3 % of critical damping at 0 and 10"
+            " knots. In beam seas the ends of the ship, which are not alike, leave small surge and pitch;"
+            " over these peaks the same difference is larger.",
             "",
             f"Nonlinear model in waves of {AMPLITUDE['nonlinear']} m, same measures by wave:",
             "",
