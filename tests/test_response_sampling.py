@@ -55,14 +55,16 @@ def test_random_phases_scatter_as_told() -> None:
 
 
 def test_dense_waves_are_a_gaussian_process() -> None:
-    """(2π/T) ∫ S² dω for a run that is long beside the width of the spectrum, less Σ m²: fixed amplitudes."""
+    """(2π/T) ∫ S² dω for a run that is long beside the width of the spectrum, less Σ m²."""
     omega = np.linspace(0.3, 1.5, 1501)
     density = np.exp(-(((omega - 0.8) / 0.15) ** 2))
     step, duration = omega[1] - omega[0], 1000.0
     found = variance_scatter(omega, step * density[:, None], duration)[0]
     of_process = 2 * np.pi / duration * np.trapezoid(density**2, omega)
     of_amplitudes = step * np.trapezoid(density**2, omega)
-    # The next term is of the order of 1/(0.15 T) squared.
+    # (2/T) ∫ (1 - |τ|/T) R² dτ with R² as exp(-0.15² τ²/2): the second part is 1/(T √(0.15² π/2)).
+    of_process *= 1.0 - 1.0 / (duration * 0.15 * np.sqrt(0.5 * np.pi))
+    # What is left is the sum frequencies.
     assert found == pytest.approx(of_process - of_amplitudes, rel=1e-3)
     assert of_amplitudes > 0.1 * of_process
 

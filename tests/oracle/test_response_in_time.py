@@ -1,7 +1,7 @@
 """The frequency domain against runs in time, a wave a run; reports/frequency_domain.md has more waves.
 
 Every wave is run twice, the second time a quarter period later: the two motions are real and imaginary part
-of H exp(iω_e t). So H is read at any instant, with ω_e signed, also where a wave stands still beside the ship.
+of H exp(iω_e t). So H is read at any instant, with ω_e signed, also where waves stand still beside her.
 """
 
 from typing import Any
