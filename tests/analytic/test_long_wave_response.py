@@ -3,7 +3,7 @@
 The ship goes with the water: that moves up and down at iω, and so does she, iω_e of heave and U ik cos β of
 pitch. So no water moves beside her, and radiation and diffraction cancel, at any speed. Heave is 1, pitch
 ik cos β (bow down), roll ik sin β. A ship that is held in surge does not follow the orbits of the water, and
-its inertia turns her bow: at rest pitch is 1 + g A51(0)/C55 of the slope.
+the water that flows along her turns her bow: at rest pitch is 1 + g A51(0)/C55 of the slope.
 """
 
 from functools import cache
@@ -53,7 +53,7 @@ def test_the_free_ship_rides_the_wave_at_any_speed(source: str) -> None:
     print(np.round(found[..., Dof.HEAVE], 4), np.round(found[..., Dof.PITCH] / slope, 4))
     # The next terms of heave are (k L)² and M (ω_e² - ω²)/C33, 4e-4 at most.
     assert np.abs(found[..., Dof.HEAVE] - 1.0).max() < 1e-3
-    # Of pitch panels leave 0.4 %, strips 0.7 %: the flow along the hull, which they do not have.
+    # In pitch panels leave 0.4 %, strips 0.7 %, which goes with the wave frequency; see below.
     assert np.abs(found[..., Dof.PITCH] / slope - 1.0).max() < (0.005 if source == "bem" else 0.01)
 
 
@@ -92,7 +92,7 @@ def test_a_ship_that_is_held_in_surge_pitches_more(springs: Supplementary) -> No
     at_rest = in_long_waves("bem", 400.0, springs)[0, :, Dof.PITCH] / slope
     print(expected, at_rest)
     assert expected == pytest.approx(0.02, abs=0.003)
-    # The heave spring of the waterplane off the CG, k x_F, and the give of the surge spring leave 0.1 %.
+    # What is left, 6e-4, goes with the wave frequency.
     assert np.abs(at_rest - 1.0 - expected).max() < 2e-3
     of_strips = in_long_waves("strip", 400.0, springs)[0, :, Dof.PITCH] / slope
     assert np.abs(of_strips - 1.0).max() < 2e-3

@@ -127,7 +127,7 @@ def test_linear_runs_give_the_transfer_functions_wave_by_wave(
 def test_nonlinear_runs_in_small_waves_give_them_too(
     halifax: Ship, halifax_database: HydroDatabase, held: Supplementary
 ) -> None:
-    """Within 0.36 %, in roll, which the quadrature of the hull moves by its share of GM."""
+    """Measured: 0.36 %, in roll, at most."""
     found = from_runs(halifax, halifax_database, held, NONLINEAR, model="nonlinear", time_step=0.2)
     error = worst(halifax, halifax_database, held, NONLINEAR, found)
     print(np.round(100 * error, 3))
