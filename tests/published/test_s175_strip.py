@@ -11,10 +11,7 @@ import numpy as np
 import pytest
 
 from panelsim.hydro.database import HydroDatabase
-from panelsim.hydro.diffraction import diffraction_load
-from panelsim.hydro.speed_terms import radiation_at_speed
-from panelsim.loads.froude_krylov import froude_krylov_transfer
-from panelsim.seaway.components import WaveComponents
+from panelsim.response.response import response
 from panelsim.seaway.dispersion import wavenumber
 from panelsim.ship.bundled import load_ship
 from panelsim.ship.ship import Ship
@@ -53,13 +50,10 @@ def s175() -> tuple[Ship, HydroDatabase]:
 def heave_and_pitch(heading_deg: float, omega: float) -> tuple[complex, complex]:
     """Heave, and pitch bow up over the wave slope, exp(+iωt), for a heading of theirs."""
     ship, database = s175()
-    wave, beta = np.array([omega]), np.pi - np.radians([heading_deg])
-    components = WaveComponents(np.ones(1), wave, beta, np.zeros(1))
-    force = froude_krylov_transfer(ship, components) + diffraction_load(database, wave, beta, 0.0)
-    radiation = radiation_at_speed(database, wave, 0.0).impedance[0]
-    impedance = radiation + ship.hydrostatics.stiffness - omega**2 * ship.inertia
-    motions = np.linalg.solve(impedance, force[0])
-    return complex(motions[2]), complex(-motions[4] / wavenumber(wave, ship.gravity)[0])
+    heading = np.pi - np.radians(heading_deg)
+    table = response(ship, database, frequencies=[omega], wave_headings=[heading], speeds=[0.0])
+    motions = table.transfer[0, 0, 0]
+    return complex(motions[2]), complex(-motions[4] / wavenumber(np.array([omega]), ship.gravity)[0])
 
 
 @pytest.mark.parametrize(("heading_deg", "omega", "heave", "heave_phase", "pitch", "pitch_phase"), VERES)
