@@ -5,6 +5,7 @@ import math
 import shlex
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -32,6 +33,7 @@ from panelsim.motion.history import History
 from panelsim.results.export import CSV_FILES, history_to_csv
 from panelsim.seaway.exchange.components_csv import write_components
 from panelsim.ship.facts import ship_facts
+from panelsim.studies.going_on import begun_run
 from panelsim.studies.output_folder import make_output_folder, refuse_occupied_folder
 
 app = typer.Typer(
@@ -178,25 +180,39 @@ def run(
         Path | None, typer.Option("--out", help="Output folder; runs/CASE if not given.")
     ] = None,
     force: Force = False,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on with the interrupted or shorter run in the folder.")
+    ] = False,
     overrides: Overrides = None,
 ) -> None:
     """Run a case; write history, statistics, report, recording.
 
     The files are history.nc, statistics.json, report.md with plots, run.rrd.
     """
+    if resume and force:
+        raise PanelsimError(
+            "--resume goes on with the run in the folder, and --force begins it anew",
+            got="both",
+            remedy="give one of them",
+        )
     from panelsim.studies.run_case import run_case  # brings matplotlib and rerun
 
     imports = time.process_time()
     case = Case.load(case_file, overrides or ())
     folder = out_folder if out_folder is not None else Path("runs") / case.name
-    refuse_occupied_folder(folder, force=force)
+    refuse_occupied_folder(folder, force=force or resume)
     warnings = case.warnings()
     warn(warnings)
+    begun = begun_run(case, folder) if resume else None
+    if begun is not None:
+        length = case.file.run.ramp + case.file.run.duration
+        out.print(f"Going on at {begun.time[-1]:g} s of {length:g} s.")
     with progress_bars() as track:
         result = run_case(
             case,
             folder,
             force=force,
+            resume=begun,
             on_coefficients=track("hydrodynamic coefficients"),
             on_run=track("run"),
         )
@@ -204,7 +220,15 @@ def run(
     if result.history.outcome != "finished":
         detail = result.statistics.outcome_detail
         err.print(f"The run ended early: {result.history.outcome}, {detail}")
+        if result.history.outcome == "interrupted":
+            err.print(f"To go on: {_command_to_go_on(case_file, out_folder, overrides or ())}")
         raise typer.Exit(EXIT_ENDED_EARLY)
+
+
+def _command_to_go_on(case_file: Path, out_folder: Path | None, overrides: Sequence[str]) -> str:
+    where = [] if out_folder is None else ["--out", str(out_folder)]
+    changes = [word for override in overrides for word in ("--set", override)]
+    return shlex.join(["panelsim", "run", str(case_file), *where, *changes, "--resume"])
 
 
 @app.command()
