@@ -17,6 +17,7 @@ from panelsim.case.ship_section import is_mesh_file
 from panelsim.case.template import case_template, hull_entry
 from panelsim.cli.arguments import refuse_existing, require_suffix, ship_of
 from panelsim.cli.decay import decay
+from panelsim.cli.hydro import hydro
 from panelsim.cli.options import EXIT_BAD_INPUT, EXIT_ENDED_EARLY, Force, Overrides
 from panelsim.cli.respond import respond
 from panelsim.cli.righting import righting
@@ -28,7 +29,6 @@ from panelsim.hull.checks import check_mesh, require_sound
 from panelsim.hull.export import require_mesh_target
 from panelsim.hull.form import load_hull
 from panelsim.hull.readers import SUFFIXES, read_mesh
-from panelsim.hydro.database import HydroDatabase
 from panelsim.motion.history import History
 from panelsim.results.export import CSV_FILES, history_to_csv
 from panelsim.seaway.exchange.components_csv import write_components
@@ -308,22 +308,7 @@ def hull(
 app.command()(righting)
 
 
-@app.command()
-def hydro(
-    what: Annotated[str, typer.Argument(help="A bundled hull, a hull folder or a case file.")],
-    output: Annotated[Path, typer.Option("-o", "--output", help="NetCDF file to write.")],
-    method: Annotated[str, typer.Option(help="bem (boundary elements in 3-D) or strip.")] = "bem",
-    force: Force = False,
-) -> None:
-    """Compute the hydrodynamic coefficients of a ship and store them."""
-    refuse_existing(output, force)
-    ship = ship_of(what)
-    make_output_folder(output.parent)
-    with progress_bars() as track:
-        database = HydroDatabase.compute(ship, method, progress=track("hydrodynamic coefficients"))
-    database.save(output)
-    top = database.frequencies.max()
-    out.print(f"Wrote {output}: {len(database.frequencies)} frequencies to {top:.2f} rad/s")
+app.command()(hydro)
 
 
 @app.command()
