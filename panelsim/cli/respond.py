@@ -17,6 +17,7 @@ from panelsim.conventions import KNOT, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.files import write_whole
 from panelsim.hydro.database import Progress
+from panelsim.hydro.reach import require_waves_held
 from panelsim.response.arguments import point_of_ship
 from panelsim.response.natural import NaturalMode, natural_periods
 from panelsim.response.response import Response, TransferFunctions, real_valued, response
@@ -108,6 +109,7 @@ def case_response(
     Raises PanelsimError as `response` and `TransferFunctions.in_sea` do.
     """
     database = case.database(progress)
+    require_waves_held(database, case.seaway.components)
     own = _own_heading(case)
     low, high = np.sqrt(2.0 * np.pi * case.ship.gravity / case.ship.length / np.array([_LONGEST, _SHORTEST]))
     if not database.has_potentials:

@@ -76,8 +76,8 @@ def require_physical(
     if too_low.any():
         i, dof = np.argwhere(too_low)[0]
         raise PanelsimError(
-            f"The radiation damping is negative in {DOF_NAMES[dof]} at {frequencies[i]:.3g} rad/s",
-            got=f"{damping[i, dof]:.3g}, with a peak of {damping[:, dof].max():.3g}",
+            f"There is negative radiation damping in {DOF_NAMES[dof]}",
+            got=f"{damping[i, dof]:.3g} at {frequencies[i]:.3g} rad/s, peak {damping[:, dof].max():.3g}",
             allowed="not below -1 % of the peak",
             remedy="solve it with smaller panels or to a lower frequency, normals out of the hull; look at"
             " the signs of a file of another program",
