@@ -86,15 +86,18 @@ def write_case(folder: Path) -> Path:
 
 
 @contextmanager
-def interrupted_at(seconds: float) -> Iterator[None]:
-    """Send this process Ctrl-C when the run has come so far."""
+def interrupted_at(seconds: float) -> Iterator[list[float]]:
+    """Send this process Ctrl-C when the run has come so far; lends the times [s] that were told of it."""
+    told: list[float] = []
 
     @contextmanager
     def bars() -> Iterator[Callable[[str], Callable[[float, float], None]]]:
         def track(label: str) -> Callable[[float, float], None]:
             def update(done: float, total: float) -> None:
-                if label == "run" and done >= seconds - 1e-9:
-                    os.kill(os.getpid(), signal.SIGINT)
+                if label == "run":
+                    told.append(done)
+                    if done >= seconds - 1e-9:
+                        os.kill(os.getpid(), signal.SIGINT)
 
             return update
 
@@ -103,7 +106,7 @@ def interrupted_at(seconds: float) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(commands, "progress_bars", bars)
         patched.setattr(march, "STEPS_BETWEEN_PROGRESS", 1)
-        yield
+        yield told
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -145,7 +148,10 @@ def test_a_finished_run_is_made_longer(call: Call, case_file: Path) -> None:
     folder = Path("runs/my ship")
     short = History.load(folder / "history.nc")
     (folder / "motions.csv").write_text("of the shorter run")
-    code, out, _ = call("run", case_file, "--set", "run.duration=20", "--resume")
+    with interrupted_at(1e9) as told:
+        code, out, _ = call("run", case_file, "--set", "run.duration=20", "--resume")
+    # It went on, and did not do the same again.
+    assert told[0] == pytest.approx(16.0)
     assert code == 0 and "Going on at 16 s of 24 s" in out
     assert not (folder / "motions.csv").exists()
     assert call("run", case_file, "--set", "run.duration=20", "--out", "whole")[0] == 0
