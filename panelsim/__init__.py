@@ -72,6 +72,32 @@ _HOMES = {
     "RandomSeaway": "seaway.random",
     "HydroDatabase": "hydro.database",
     "database_for": "hydro.store",
+    "Section": "hydro.strip.sections",
+    "HullSections": "hydro.strip.sections",
+    "sections_from_offsets": "hydro.strip.sections",
+    "LewisForm": "hydro.strip.lewis",
+    "lewis_form": "hydro.strip.lewis",
+    "coverage": "hydro.exchange.coverage",
+    "read_database": "hydro.exchange.any_format",
+    "read_capytaine": "hydro.exchange.capytaine_dataset",
+    "read_wamit": "hydro.exchange.wamit",
+    "read_bemio": "hydro.exchange.bemio",
+    "read_hdb": "hydro.exchange.hdb",
+    "diffraction_load": "hydro.diffraction",
+    "radiation_at_speed": "hydro.speed_terms",
+    "Transom": "hydro.transom",
+    "RollDampingTerms": "hydro.roll_damping.terms",
+    "RollDecay": "hydro.roll_damping.decay",
+    "fit_roll_decay": "hydro.roll_damping.decay",
+    "IkedaDamping": "hydro.roll_damping.ikeda",
+    "ikeda_damping": "hydro.roll_damping.ikeda",
+    "ikeda_terms": "hydro.roll_damping.ikeda",
+    "RollingHull": "hydro.roll_damping.hull_data",
+    "memory_functions": "hydro.memory",
+    "FreeRotation": "motion.free_rotation",
+    "rotate_freely": "motion.free_rotation",
+    "attitude_of": "motion.free_rotation",
+    "angles_of": "motion.free_rotation",
     "pressure_force": "loads.wetted_surface",
     "WettedSurface": "loads.wetted_surface",
     "Instant": "loads.load",
@@ -115,8 +141,29 @@ if TYPE_CHECKING:
     from panelsim.hull.panel_mesh import PanelMesh as PanelMesh
     from panelsim.hull.readers import read_mesh as read_mesh
     from panelsim.hydro.database import HydroDatabase as HydroDatabase
+    from panelsim.hydro.diffraction import diffraction_load as diffraction_load
+    from panelsim.hydro.exchange.any_format import read_database as read_database
+    from panelsim.hydro.exchange.bemio import read_bemio as read_bemio
+    from panelsim.hydro.exchange.capytaine_dataset import read_capytaine as read_capytaine
+    from panelsim.hydro.exchange.coverage import coverage as coverage
+    from panelsim.hydro.exchange.hdb import read_hdb as read_hdb
+    from panelsim.hydro.exchange.wamit import read_wamit as read_wamit
+    from panelsim.hydro.memory import memory_functions as memory_functions
+    from panelsim.hydro.roll_damping.decay import RollDecay as RollDecay
+    from panelsim.hydro.roll_damping.decay import fit_roll_decay as fit_roll_decay
+    from panelsim.hydro.roll_damping.hull_data import RollingHull as RollingHull
+    from panelsim.hydro.roll_damping.ikeda import IkedaDamping as IkedaDamping
+    from panelsim.hydro.roll_damping.ikeda import ikeda_damping as ikeda_damping
+    from panelsim.hydro.roll_damping.ikeda import ikeda_terms as ikeda_terms
     from panelsim.hydro.roll_damping.terms import RollDampingTerms as RollDampingTerms
+    from panelsim.hydro.speed_terms import radiation_at_speed as radiation_at_speed
     from panelsim.hydro.store import database_for as database_for
+    from panelsim.hydro.strip.lewis import LewisForm as LewisForm
+    from panelsim.hydro.strip.lewis import lewis_form as lewis_form
+    from panelsim.hydro.strip.sections import HullSections as HullSections
+    from panelsim.hydro.strip.sections import Section as Section
+    from panelsim.hydro.strip.sections import sections_from_offsets as sections_from_offsets
+    from panelsim.hydro.transom import Transom as Transom
     from panelsim.loads.derivatives import pressure_stiffness as pressure_stiffness
     from panelsim.loads.hull_pressure import HullPressure as HullPressure
     from panelsim.loads.hull_pressure import hull_pressure as hull_pressure
@@ -124,6 +171,10 @@ if TYPE_CHECKING:
     from panelsim.loads.supplementary import Supplementary as Supplementary
     from panelsim.loads.wetted_surface import WettedSurface as WettedSurface
     from panelsim.loads.wetted_surface import pressure_force as pressure_force
+    from panelsim.motion.free_rotation import FreeRotation as FreeRotation
+    from panelsim.motion.free_rotation import angles_of as angles_of
+    from panelsim.motion.free_rotation import attitude_of as attitude_of
+    from panelsim.motion.free_rotation import rotate_freely as rotate_freely
     from panelsim.motion.history import History as History
     from panelsim.motion.point_motions import point_motions as point_motions
     from panelsim.motion.point_motions import with_points as with_points

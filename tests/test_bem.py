@@ -187,10 +187,10 @@ def test_negative_damping_and_nonsense_are_refused() -> None:
     require_physical(frequencies, good, good, 1.0)
     bad = good.copy()
     bad[3, Dof.HEAVE, Dof.HEAVE] = -0.02
-    with pytest.raises(PanelsimError, match="negative radiation damping in heave"):
+    with pytest.raises(PanelsimError, match=r"negative radiation damping in heave[\s\S]* at 3 rad/s"):
         require_physical(frequencies, good, bad, 1.0)
     bad[3, Dof.HEAVE, Dof.HEAVE] = np.nan
-    with pytest.raises(PanelsimError, match="added mass that is not finite"):
+    with pytest.raises(PanelsimError, match="added mass is not finite"):
         require_physical(frequencies, bad, good, 1.0)
 
 

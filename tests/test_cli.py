@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from panelsim.cli import commands, main
+from panelsim.cli import commands, hydro, main
 from panelsim.hull.form import bundled_hull_names, hull_folder, load_hull
 from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.motion.history import History
@@ -457,7 +457,8 @@ def interrupt_during(
 
         yield track
 
-    monkeypatch.setattr(commands, "progress_bars", bars)
+    for module in (commands, hydro):
+        monkeypatch.setattr(module, "progress_bars", bars)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -5,6 +5,7 @@ import math
 import shlex
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -16,6 +17,7 @@ from panelsim.case.ship_section import is_mesh_file
 from panelsim.case.template import case_template, hull_entry
 from panelsim.cli.arguments import refuse_existing, require_suffix, ship_of
 from panelsim.cli.decay import decay
+from panelsim.cli.hydro import hydro
 from panelsim.cli.options import EXIT_BAD_INPUT, EXIT_ENDED_EARLY, Force, Overrides
 from panelsim.cli.respond import respond
 from panelsim.cli.righting import righting
@@ -27,11 +29,11 @@ from panelsim.hull.checks import check_mesh, require_sound
 from panelsim.hull.export import require_mesh_target
 from panelsim.hull.form import load_hull
 from panelsim.hull.readers import SUFFIXES, read_mesh
-from panelsim.hydro.database import HydroDatabase
 from panelsim.motion.history import History
 from panelsim.results.export import CSV_FILES, history_to_csv
 from panelsim.seaway.exchange.components_csv import write_components
 from panelsim.ship.facts import ship_facts
+from panelsim.studies.going_on import begun_run
 from panelsim.studies.output_folder import make_output_folder, refuse_occupied_folder
 
 app = typer.Typer(
@@ -178,25 +180,39 @@ def run(
         Path | None, typer.Option("--out", help="Output folder; runs/CASE if not given.")
     ] = None,
     force: Force = False,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on with the interrupted or shorter run in the folder.")
+    ] = False,
     overrides: Overrides = None,
 ) -> None:
     """Run a case; write history, statistics, report, recording.
 
     The files are history.nc, statistics.json, report.md with plots, run.rrd.
     """
+    if resume and force:
+        raise PanelsimError(
+            "--resume goes on with the run in the folder, and --force begins it anew",
+            got="both",
+            remedy="give one of them",
+        )
     from panelsim.studies.run_case import run_case  # brings matplotlib and rerun
 
     imports = time.process_time()
     case = Case.load(case_file, overrides or ())
     folder = out_folder if out_folder is not None else Path("runs") / case.name
-    refuse_occupied_folder(folder, force=force)
+    refuse_occupied_folder(folder, force=force or resume)
     warnings = case.warnings()
     warn(warnings)
+    begun = begun_run(case, folder) if resume else None
+    if begun is not None:
+        length = case.file.run.ramp + case.file.run.duration
+        out.print(f"Going on at {begun.time[-1]:g} s of {length:g} s.")
     with progress_bars() as track:
         result = run_case(
             case,
             folder,
             force=force,
+            resume=begun,
             on_coefficients=track("hydrodynamic coefficients"),
             on_run=track("run"),
         )
@@ -204,7 +220,15 @@ def run(
     if result.history.outcome != "finished":
         detail = result.statistics.outcome_detail
         err.print(f"The run ended early: {result.history.outcome}, {detail}")
+        if result.history.outcome == "interrupted":
+            err.print(f"To go on: {_command_to_go_on(case_file, out_folder, overrides or ())}")
         raise typer.Exit(EXIT_ENDED_EARLY)
+
+
+def _command_to_go_on(case_file: Path, out_folder: Path | None, overrides: Sequence[str]) -> str:
+    where = [] if out_folder is None else ["--out", str(out_folder)]
+    changes = [word for override in overrides for word in ("--set", override)]
+    return shlex.join(["panelsim", "run", str(case_file), *where, *changes, "--resume"])
 
 
 @app.command()
@@ -284,22 +308,7 @@ def hull(
 app.command()(righting)
 
 
-@app.command()
-def hydro(
-    what: Annotated[str, typer.Argument(help="A bundled hull, a hull folder or a case file.")],
-    output: Annotated[Path, typer.Option("-o", "--output", help="NetCDF file to write.")],
-    method: Annotated[str, typer.Option(help="bem (boundary elements in 3-D) or strip.")] = "bem",
-    force: Force = False,
-) -> None:
-    """Compute the hydrodynamic coefficients of a ship and store them."""
-    refuse_existing(output, force)
-    ship = ship_of(what)
-    make_output_folder(output.parent)
-    with progress_bars() as track:
-        database = HydroDatabase.compute(ship, method, progress=track("hydrodynamic coefficients"))
-    database.save(output)
-    top = database.frequencies.max()
-    out.print(f"Wrote {output}: {len(database.frequencies)} frequencies to {top:.2f} rad/s")
+app.command()(hydro)
 
 
 @app.command()

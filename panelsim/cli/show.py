@@ -14,6 +14,10 @@ from rich.table import Table
 
 from panelsim.case import Case
 from panelsim.hull.defects import MeshDefect
+from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.exchange.coverage import coverage
+from panelsim.hydro.reach import require_waves_held
+from panelsim.hydro.store import stored_database
 from panelsim.results.tables import point_table, statistics_table
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.random import RandomSeaway
@@ -138,13 +142,9 @@ def show_rows(title: str, rows: Mapping[str, str]) -> None:
 
 def show_case(case: Case) -> None:
     """What a case will run: waves, supplementary terms, coefficients, time."""
-    run = case.file.run
-    database = case.stored_database()
-    source = (
-        "of the ship, stored or computed when it is run"
-        if database is None
-        else f"{case.file.hydrodynamics.file}, {len(database.frequencies)} frequencies"
-    )
+    run, hydrodynamics = case.file.run, case.file.hydrodynamics
+    database = case.stored_database() or stored_database(case.ship, hydrodynamics.method)
+    source = "computed when it is run" if database is None else "stored; what they cover is told below"
     rows = {
         "sea": _sea(case),
         "supplementary stiffness": _by_motion(case.supplementary.stiffness),
@@ -152,11 +152,21 @@ def show_case(case: Case) -> None:
         "roll damping": _roll_damping(case),
         "points": "; ".join(f"{name} at {x:g}, {y:g}, {z:g} m" for name, (x, y, z) in case.points.items())
         or "none",
-        "coefficients": source,
+        "coefficients": f"{hydrodynamics.file or hydrodynamics.method}, {source}",
         "run": f"{run.model}, {run.speed_knots:g} knots, ramp {run.ramp:g} s and {run.duration:g} s,"
         f" {run.steps} {run.stepper} steps of {run.time_step:g} s",
     }
     show_rows(case.name, rows)
+    if database is not None:
+        require_waves_held(database, case.seaway.components)
+        show_coverage(database)
+
+
+def show_coverage(database: HydroDatabase) -> None:
+    """What a database covers, and where it comes from."""
+    out.print("Coefficients", style="bold")
+    for line in coverage(database).splitlines():
+        say(f"  {line}")
 
 
 def _sea(case: Case) -> str:

@@ -1,4 +1,4 @@
-"""Symmetry and sanity of boundary-element coefficients: what theory demands of them."""
+"""Symmetry and sanity of coefficients from any source: what theory demands of them."""
 
 import numpy as np
 
@@ -54,7 +54,7 @@ def symmetrise(
 def require_physical(
     frequencies: FloatArray, added_mass: FloatArray, radiation_damping: FloatArray, half_breadth: float
 ) -> None:
-    """Refuse coefficients that no body can have.
+    """Refuse coefficients that no body can have, wherever they come from.
 
     `frequencies` (F,) [rad/s], `added_mass` and `radiation_damping` (F, 6, 6), `half_breadth` [m]. Raises
     PanelsimError for a value that is not finite and for a diagonal damping below -1 % of its peak, since
@@ -64,9 +64,9 @@ def require_physical(
         if not np.isfinite(values).all():
             worst = frequencies[~np.isfinite(values).all(axis=(1, 2))][0]
             raise PanelsimError(
-                f"The boundary-element solution gave an {name} that is not finite",
+                f"The {name} is not finite",
                 got=f"at {worst:.3g} rad/s",
-                remedy="check the mesh for overlapping panels or holes below the waterline",
+                remedy="check the mesh for overlapping panels or holes below the waterline, a file for gaps",
             )
     damping_scale = np.diag(pair_scale(radiation_damping, half_breadth))
     inertia_scale = np.diag(pair_scale(added_mass, half_breadth))
@@ -76,10 +76,11 @@ def require_physical(
     if too_low.any():
         i, dof = np.argwhere(too_low)[0]
         raise PanelsimError(
-            f"The boundary-element solution gave a negative radiation damping in {DOF_NAMES[dof]}",
+            f"There is negative radiation damping in {DOF_NAMES[dof]}",
             got=f"{damping[i, dof]:.3g} at {frequencies[i]:.3g} rad/s, peak {damping[:, dof].max():.3g}",
             allowed="not below -1 % of the peak",
-            remedy="use smaller panels or a lower highest frequency; check that normals point outward",
+            remedy="solve it with smaller panels or to a lower frequency, normals out of the hull; look at"
+            " the signs of a file of another program",
         )
 
 

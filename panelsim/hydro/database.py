@@ -175,7 +175,7 @@ class HydroDatabase:
 
     @cached_property
     def added_mass_infinite(self) -> FloatArray:
-        """A(∞) (6, 6) of the boundary elements."""
+        """A(∞) (6, 6), as it was computed or read."""
         return self.dataset["added_mass_infinite"].values
 
     @property

@@ -34,8 +34,8 @@ class MemoryFunctions:
 
     `time` (T,) [s] up to the memory length; `momentum_kernel` R (T, 6, 6) [kg/s, kg m/s, kg m2/s], zero
     at both ends. `added_mass_infinite` (6, 6) is the A∞ that belongs to R (Ogilvie 1964): use it, not
-    that of the boundary elements. Measures (6, 6), over the square root of the peaks of A_ii A_jj
-    or B_ii B_jj: `infinite_difference` of A∞ from the boundary elements' one, `normalisation` what
+    that of the database. Measures (6, 6), over the square root of the peaks of A_ii A_jj
+    or B_ii B_jj: `infinite_difference` of A∞ from the one of the database, `normalisation` what
     was added to ∫R, `rebuilt_added_mass` and `rebuilt_damping` the largest errors of A and B made
     again from R.
     """
@@ -124,11 +124,11 @@ def _require_faithful(memory: MemoryFunctions, roughness: float) -> None:
     if not faults:
         return
     remedy = (
-        "the damping jumps from one frequency to the next, as with water trapped between two hulls or in a"
-        " moonpool: such hulls are not supported"
+        "the damping jumps from one frequency to the next: the frequencies are too far apart, or water is"
+        " trapped between two hulls or in a moonpool, and such hulls are not supported"
         if roughness > _ROUGH
-        else "the damping has not died at the highest frequency that the panels resolve: smaller panels below"
-        " the water reach higher"
+        else "the damping has not died at the highest frequency: smaller panels below the water reach higher,"
+        " and a file of another program needs higher ones"
     )
     raise PanelsimError(
         "The coefficients made again from the retardation functions are off",

@@ -28,19 +28,27 @@ def database_for(ship: Ship, progress: Progress | None = None, method: str = "be
     `method` as in `HydroDatabase.compute`; those that are bundled are by "bem". `progress(done, total)` is
     called only while one is computed.
     """
+    stored = stored_database(ship, method)
+    if stored is not None:
+        return stored
+    database = HydroDatabase.compute(ship, method, progress=progress)
+    # A cache that cannot be written costs the next run its time, and this one nothing.
+    with contextlib.suppress(PanelsimError):
+        database.save(_cached_at(ship, method))
+    return database
+
+
+def stored_database(ship: Ship, method: str = "bem") -> HydroDatabase | None:
+    """What `database_for` need not compute: the database bundled with the hull or cached, or None."""
     if method == "bem" and ship.form is not None and ship.form.name in bundled_hull_names():
         bundled = _matching(hull_folder(ship.form.name) / STORED_NAME, ship)
         if bundled is not None:
             return bundled
-    cached_at = cache_folder() / f"{_cache_key(ship, method)}.nc"
-    cached = _matching(cached_at, ship)
-    if cached is not None:
-        return cached
-    database = HydroDatabase.compute(ship, method, progress=progress)
-    # A cache that cannot be written costs the next run its time, and this one nothing.
-    with contextlib.suppress(PanelsimError):
-        database.save(cached_at)
-    return database
+    return _matching(_cached_at(ship, method), ship)
+
+
+def _cached_at(ship: Ship, method: str) -> Path:
+    return cache_folder() / f"{_cache_key(ship, method)}.nc"
 
 
 def _matching(path: Path, ship: Ship) -> HydroDatabase | None:

@@ -11,6 +11,7 @@ import xarray as xr
 
 from panelsim.conventions import FloatArray
 from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.reach import require_waves_held
 from panelsim.hydro.roll_damping.terms import RollDampingTerms
 from panelsim.loads.load import Load
 from panelsim.loads.radiation import Radiation
@@ -183,7 +184,7 @@ class Batch:
         )
 
     def _equations(self, loads: Sequence[Load]) -> EquationsOfMotion:
-        """The equations of motion of all members; PanelsimError where the time step is too long."""
+        """The equations of motion of all members; PanelsimError where step or coefficients do not suffice."""
         ship, members = self.ship, self.members
         radiation = Radiation(self.database, [member.speed for member in members])
         require_step_for_ship(
@@ -197,6 +198,7 @@ class Batch:
             encounter = member.waves.encounter_frequency(member.speed, ship.gravity)
             with about_member(i, len(members)):
                 require_step_for_waves(self.time_step, member.waves, encounter)
+                require_waves_held(self.database, member.waves)
         return EquationsOfMotion(
             ship.inertia, loads, radiation, self.ramp, large_angles=self.inertia == "large"
         )

@@ -64,12 +64,13 @@ def _resolution_note(components: WaveComponents, database: HydroDatabase, speed:
     beyond = beyond_resolution(database, components.frequency, components.wave_heading, speed)
     if not beyond.any():
         return []
+    diffraction = "diffraction" if database.has_potentials else "the scaling of diffraction"
     highest = np.abs(components.encounter_frequency(speed, database.gravity)).max()
     return [
         f"{beyond.sum()} of {components.count} wave components, with"
         f" {100 * energy_share(components, beyond):.2g} % of the wave energy, meet the ship at up to"
         f" {highest:.2f} rad/s, beyond the {database.frequencies[-1]:.2f} rad/s that the"
-        " coefficients reach; there diffraction tends to its infinite-frequency limit as 1/ω², and"
+        f" coefficients reach; there {diffraction} tends to its infinite-frequency limit as 1/ω², and"
         " radiation follows A∞ and the damping's tail."
     ]
 

@@ -16,6 +16,8 @@ from panelsim.motion.requirements import about_member
 from panelsim.motion.stepper import State
 
 RESTART_FORMAT = 1
+# Parts of an identity that are digests: their letters say nothing to a reader.
+DIGESTS = ("ship", "sea", "set of supplementary terms", "set of coefficients")
 GOES_ON = ("finished", "interrupted")  # outcomes
 
 
@@ -77,7 +79,7 @@ def _require_same(history: History, identity: dict[str, Any], most: int) -> None
             "The run to go on from ended for good",
             got=f"{history.outcome}: {history.attrs['outcome_detail']}",
             allowed="a run that is finished or interrupted",
-            remedy="leave it out",
+            remedy="run the case from its start",
         )
     group = history.tree.children.get("restart")
     if group is None or group.attrs.get("restart_format") != RESTART_FORMAT:
@@ -92,14 +94,14 @@ def _require_same(history: History, identity: dict[str, Any], most: int) -> None
         if theirs.get(name) != mine:
             raise PanelsimError(
                 f"The history to go on from is of another run: its {name} is another",
-                got=theirs.get(name),
-                allowed=mine,
+                got=None if name in DIGESTS else theirs.get(name),
+                allowed=None if name in DIGESTS else mine,
                 remedy="go on with the same ship, sea and settings, and a longer duration",
             )
     if len(history.time) > most:
         raise PanelsimError(
             "The history to go on from is longer than the run",
-            got=f"{len(history.time)} instants",
-            allowed=f"at most {most}",
+            got=f"{history.time[-1]:g} s with its ramp",
+            allowed=f"at most {(most - 1) * history.attrs['time_step']:g} s",
             remedy="give a longer duration",
         )

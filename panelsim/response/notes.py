@@ -4,6 +4,7 @@ import numpy as np
 import xarray as xr
 
 from panelsim.conventions import Dof, FloatArray
+from panelsim.hydro.tabulated_diffraction import SPEED_NOTE
 from panelsim.response.linear_ship import LinearShip, MotionsInWaves
 from panelsim.response.sea_waves import SeaWaves
 
@@ -11,6 +12,8 @@ from panelsim.response.sea_waves import SeaWaves
 def response_notes(linear_ship: LinearShip, motions: MotionsInWaves, speeds: FloatArray) -> list[str]:
     """Sentences on a table of transfer functions; none where all is well."""
     notes = list(linear_ship.database.notes)
+    if speeds.any() and not linear_ship.database.has_potentials:
+        notes.append(SPEED_NOTE)
     highest = linear_ship.database.frequencies[-1]
     beyond = np.abs(motions.encounter) > highest
     if beyond.any():

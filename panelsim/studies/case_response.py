@@ -11,6 +11,7 @@ from panelsim.case import Case
 from panelsim.conventions import FloatArray
 from panelsim.files import write_whole
 from panelsim.hydro.database import HydroDatabase, Progress
+from panelsim.hydro.reach import require_waves_held
 from panelsim.hydro.roll_damping.terms import RollDampingTerms
 from panelsim.response.natural import NaturalMode, natural_periods
 from panelsim.response.response import Response, response
@@ -69,6 +70,7 @@ def case_response(
     `TransferFunctions.in_sea` do, and as the roll damping of the case.
     """
     database = case.database(progress)
+    require_waves_held(database, case.seaway.components)
     heading = _own_heading(case)
     speed = _with(speeds, case.speed)
     table = response(

@@ -15,13 +15,15 @@ from panelsim.motion.history import History
 from panelsim.motion.march import Progress as RunProgress
 from panelsim.motion.simulate import simulate
 from panelsim.results.statistics import Statistics, statistics
+from panelsim.studies.going_on import HISTORY
 from panelsim.studies.output_folder import make_output_folder, refuse_occupied_folder, remove_if_empty
 from panelsim.view.recording import record
 from panelsim.view.report import PICTURES, report
 
-FILES = ("history.nc", "statistics.json", "report.md", "run.rrd")
-# Those of an older run, whole or in part, would be taken for this one's.
-OLD_FILES = (*FILES, *PICTURES, "motions.csv", "loads.csv")
+FILES = (HISTORY, "statistics.json", "report.md", "run.rrd")
+# Those of an older run, whole or in part, would be taken for this one's. Its history is not taken away but
+# replaced in one step: a run that goes on would be lost with it.
+OLD_FILES = (*FILES[1:], *PICTURES, "motions.csv", "loads.csv")
 
 
 @dataclass(frozen=True)
@@ -40,23 +42,26 @@ def run_case(
     folder: Path,
     *,
     force: bool = False,
+    resume: History | None = None,
     on_coefficients: CoefficientProgress | None = None,
     on_run: RunProgress | None = None,
 ) -> RunOutput:
     """Run a case and write history.nc, statistics.json, report.md with its plots, and run.rrd.
 
-    The two callbacks are told the progress of the coefficients (done, total) and of the run (seconds
-    done, seconds in all). A run that ends early leaves all its files too; its history says why.
-    Raises PanelsimError for a folder that is not empty, unless `force`, and for a case that cannot
-    be run, both before anything is written.
+    `resume` is the beginning of this very run, as `begun_run` finds it in the folder: it goes on bit for bit,
+    and files in the folder are replaced. The two callbacks are told the progress of the coefficients (done,
+    total) and of the run (seconds done, seconds in all). A run that ends early leaves all its files too; its
+    history says why.
+    Raises PanelsimError for a folder that is not empty, unless `force` or `resume`, for the beginning of
+    another run, and for a case that cannot be run, all before anything is written.
     """
-    refuse_occupied_folder(folder, force=force)
+    refuse_occupied_folder(folder, force=force or resume is not None)
     seconds: dict[str, float] = {}
     with _timed(seconds, "ship and waves"):
         _ = case.ship, case.seaway, case.supplementary, case.points  # whatever is wrong with them comes first
     make_output_folder(folder)
     try:
-        return _run_into(folder, case, seconds, on_coefficients, on_run)
+        return _run_into(folder, case, resume, seconds, on_coefficients, on_run)
     except BaseException:
         remove_if_empty(folder)
         raise
@@ -65,6 +70,7 @@ def run_case(
 def _run_into(
     folder: Path,
     case: Case,
+    resume: History | None,
     seconds: dict[str, float],
     on_coefficients: CoefficientProgress | None,
     on_run: RunProgress | None,
@@ -96,11 +102,12 @@ def _run_into(
             seed=case.file.seaway.seed if case.file.seaway.kind == "random" else None,
             notes=case.warnings(),
             points=case.points,
+            resume=resume,
         )
     with _timed(seconds, "history and statistics"):
         for name in OLD_FILES:
             (folder / name).unlink(missing_ok=True)
-        history.save(folder / "history.nc", overwrite=True)
+        history.save(folder / HISTORY, overwrite=True)
         result = statistics(history)
         with replacing(folder / "statistics.json") as beside:
             beside.write_text(result.to_json(), encoding="utf-8")

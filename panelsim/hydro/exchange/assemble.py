@@ -46,8 +46,9 @@ def database_of(foreign: ForeignCoefficients, ship: Ship, *, rest: str = "file")
     added_mass, damping = foreign.frame.matrix(added_mass), foreign.frame.matrix(damping)
     symmetric = is_mirror_symmetric(ship.mesh)
     half_breadth = _half_breadth(ship)
-    added_mass, measures = _symmetric(foreign.source, "added mass", added_mass, symmetric, half_breadth)
-    damping, _ = _symmetric(foreign.source, "radiation damping", damping, symmetric, half_breadth)
+    conditions = frequency, symmetric, half_breadth
+    added_mass, measures = _symmetric(foreign.source, "added mass", added_mass, *conditions)
+    damping, _ = _symmetric(foreign.source, "radiation damping", damping, *conditions)
     require_physical(frequency, added_mass, damping, half_breadth)
     heading, table = _tables(foreign, ship, symmetric, notes)
     infinite = foreign.added_mass_infinite
@@ -109,9 +110,14 @@ def _from_rest(
 
 
 def _symmetric(
-    source: str, name: str, matrices: FloatArray, mirror_symmetric: bool, half_breadth: float
+    source: str,
+    name: str,
+    matrices: FloatArray,
+    frequency: FloatArray,
+    mirror_symmetric: bool,
+    half_breadth: float,
 ) -> tuple[FloatArray, dict[str, float]]:
-    """Symmetrised matrices and how much that changed; refuses more than 5 %."""
+    """Symmetrised matrices and how much that changed; refuses more than 5 %, with the frequency of it."""
     mean, transpose, coupling = symmetrise(
         matrices, mirror_symmetric=mirror_symmetric, half_breadth=half_breadth
     )
@@ -121,11 +127,24 @@ def _symmetric(
         )
         raise PanelsimError(
             f"The {name} of the file {what}",
-            got=f"{source}: {100 * max(transpose, coupling):.0f} % of the peak",
+            got=f"{source}: {100 * max(transpose, coupling):.0f} % of the peak;"
+            f" {_good_to(matrices, frequency, mirror_symmetric, half_breadth)}",
             allowed=f"{100 * _LARGEST_ASYMMETRY:.0f} %",
-            remedy="look at the axes, at moments_about, and whether the file is whole",
+            remedy="where low frequencies are good, the panels are too large for the high ones: compute it to"
+            " a lower frequency; else look at the axes, at moments_about, and whether the file is whole",
         )
     return mean, {"asymmetry_" + name.replace(" ", "_"): transpose, "port_starboard_coupling": coupling}
+
+
+def _good_to(matrices: FloatArray, frequency: FloatArray, mirror_symmetric: bool, half_breadth: float) -> str:
+    """To which frequency the matrices are symmetric, in words."""
+    for count in range(len(frequency) - 1, 1, -1):
+        _, *errors = symmetrise(
+            matrices[:count], mirror_symmetric=mirror_symmetric, half_breadth=half_breadth
+        )
+        if max(errors) <= _LARGEST_ASYMMETRY:
+            return f"good to {frequency[count - 1]:.4g} rad/s"
+    return f"from {frequency[1]:.4g} rad/s on"
 
 
 def _even(matrix: FloatArray, mirror_symmetric: bool, half_breadth: float) -> FloatArray:

@@ -13,13 +13,14 @@ def coverage(database: HydroDatabase) -> str:
     """Lines on the frequencies and headings of a database, its gaps, and what holds at speed."""
     frequency = database.frequencies
     lines = [
+        f"Source: {database.dataset.attrs.get('solver', 'not told')}.",
         f"Radiation: {len(frequency)} frequencies, 0 to {frequency[-1]:.4g} rad/s, and the infinite limit;"
-        " met faster than that, the ship radiates as the damping's tail says."
+        " met faster than that, the ship radiates as the damping's tail says.",
     ]
     if database.has_potentials:
         lines.append(
-            "Diffraction: from potentials, at any wave frequency, heading and speed; panels resolve waves"
-            f" that meet the ship at up to {frequency[-1]:.4g} rad/s."
+            "Diffraction: from potentials, at any wave frequency, heading and speed; waves are resolved that"
+            f" meet the ship at up to {frequency[-1]:.4g} rad/s."
         )
         return "\n".join([*lines, *database.notes])
     waves, headings = database.wave_frequencies, database.wave_headings

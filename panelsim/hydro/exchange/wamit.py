@@ -25,6 +25,7 @@ FIRST_COLUMNS = ("period", "frequency")
 _ROTATIONS = np.array([0, 0, 0, 1, 1, 1])
 _SAME_LOAD = 1e-3  # of the largest, between modulus with phase (three decimals) and real with imaginary part
 _PARTS = {".3": "excitation", ".3sc": "diffraction", ".3fk": "froude_krylov"}
+WAMIT_SUFFIXES = (".1", *_PARTS, ".hst")
 
 
 def read_wamit(
@@ -47,7 +48,7 @@ def read_wamit(
     [rad/s] (IPEROUT 1 or 2). `rest` as in `database_of`. Raises PanelsimError for files that are missing, cut
     short or not of this ship.
     """
-    stem = Path(path).with_suffix("") if Path(path).suffix in (".1", *_PARTS, ".hst") else Path(path)
+    stem = Path(path).with_suffix("") if Path(path).suffix in WAMIT_SUFFIXES else Path(path)
     if first_column not in FIRST_COLUMNS:
         raise PanelsimError(
             "first_column is not known", got=repr(first_column), allowed=" | ".join(FIRST_COLUMNS)
@@ -142,7 +143,7 @@ def _loads(
     path: Path, length: float, first_column: str, ship: Ship
 ) -> tuple[FloatArray, FloatArray, ComplexArray]:
     """Wave frequencies (W,), directions (H,) [rad] and loads (W, H, 6) of one file."""
-    rows = read_rows(path, columns=(7,), modes=(2,))
+    rows = read_rows(path, columns=(7,), modes=(2,), values=slice(3, 7))
     blocks = rows.blocks(lambda row: (frequency_of(row[0], first_column), row[1]))
     frequency = np.array(sorted({omega for omega, _ in blocks}))
     direction = np.array(sorted({beta for _, beta in blocks}))

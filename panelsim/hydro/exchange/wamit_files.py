@@ -42,9 +42,12 @@ class Rows:
         return blocks
 
 
-def read_rows(path: Path, *, columns: tuple[int, ...], modes: tuple[int, ...]) -> Rows:
+def read_rows(
+    path: Path, *, columns: tuple[int, ...], modes: tuple[int, ...], values: slice = slice(0, 0)
+) -> Rows:
     """Rows of a file with one of these counts of columns; a first line of words is a header.
 
+    Rows whose `values` are all NaN are left out: Capytaine writes them where it solved radiation only.
     Raises PanelsimError, with the line, for what is missing, cut short, not a number, or another mode than 1
     to 6.
     """
@@ -55,6 +58,8 @@ def read_rows(path: Path, *, columns: tuple[int, ...], modes: tuple[int, ...]) -
     rows = []
     for line, words in enumerate((line.split() for line in text.splitlines()), 1):
         row = [_number(word) for word in words]
+        if row[values] and all(word.lower() == "nan" for word in words[values]):
+            continue
         if line == 1 and any(math.isnan(value) for value in row):
             continue
         if row:
