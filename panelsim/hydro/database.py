@@ -14,6 +14,8 @@ from panelsim.files import write_whole
 from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.hull.refine import subdivided
 from panelsim.hydro.bem import Progress, highest_resolved_frequency, solve_radiation
+from panelsim.hydro.memory import MemoryFunctions, memory_functions
+from panelsim.hydro.memory_states import MemoryStates, memory_states
 from panelsim.hydro.strip.database import highest_strip_frequency, solve_strips
 from panelsim.hydro.strip.mesh_sections import sections_of_mesh
 from panelsim.ship.bundled import default_panel_area
@@ -177,6 +179,16 @@ class HydroDatabase:
     def added_mass_infinite(self) -> FloatArray:
         """A(∞) (6, 6) of the boundary elements."""
         return self.dataset["added_mass_infinite"].values
+
+    @cached_property
+    def memory(self) -> MemoryFunctions:
+        """Memory of the radiated waves. Raises PanelsimError as `memory_functions` does."""
+        return memory_functions(self)
+
+    @cached_property
+    def memory_states(self) -> MemoryStates:
+        """The memory as linear states. Raises PanelsimError as `memory_functions` and `memory_states` do."""
+        return memory_states(self.memory)
 
     @property
     def has_potentials(self) -> bool:

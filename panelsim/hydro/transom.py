@@ -15,31 +15,37 @@ from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.interpolation import at_frequency
 from panelsim.hydro.strip.assembly import lowest_strip_frequency, section_motion
+from panelsim.hydro.strip.contour import Contour, contour_nodes, highest_frequency
+from panelsim.hydro.strip.frank import ELEMENTS
 from panelsim.hydro.strip.incident import diffraction_momentum_section
 from panelsim.hydro.strip.long_waves import solve_at_all_frequencies
 from panelsim.hydro.strip.mesh_sections import section_of_mesh, wet_ends
 from panelsim.hydro.strip.sections import Section
 from panelsim.hydro.strip.solution import SectionSolution
+from panelsim.hydro.transom_memory import TransomMemory, transom_memory
 from panelsim.seaway.dispersion import wavenumber
 from panelsim.ship.ship import Ship
 
 _AHEAD = 1e-4  # share of the wet length by which the cut is made ahead of the flat transom
 _SMALLEST = 0.01  # share of the midship section's area
+_MORE = 15  # frequencies
 
 
 @dataclass(frozen=True, eq=False)
 class Transom:
-    """The solved section at x [m] in ship axes, its last frequency infinite and its first rest."""
+    """The solved section, its last frequency infinite and its first rest, of a ship of this length [m]."""
 
-    x: float
+    section: Section
     solution: SectionSolution
+    length: float
 
     @classmethod
     def of_ship(cls, ship: Ship, frequencies: FloatArray) -> "Transom":
         """Cut and solve the aftmost wet section of a ship at rest.
 
-        `frequencies` (F,) [rad/s], ascending from 0: those of the database that it goes with. Raises
-        PanelsimError for a stern that ends without a wet transom.
+        `frequencies` (F,) [rad/s], ascending from 0: those of the database that it goes with. A shallow
+        section still makes waves above them, and is solved to the highest that its elements resolve. Raises PanelsimError for a stern that ends
+        without a wet transom.
         """
         aft, fore = wet_ends(ship.vertices, ship.mesh.panels, ship.waterline)
         section = _section(ship, aft + _AHEAD * (fore - aft))
@@ -51,14 +57,27 @@ class Transom:
                 allowed=f"{100 * _SMALLEST:.2g} % or more",
                 remedy="leave the transom terms out",
             )
+        contour = Contour.of_nodes(contour_nodes(section, ELEMENTS), section.waterline)
+        last = frequencies[-1]
+        more = np.geomspace(last, max(last, highest_frequency(contour, ship.gravity)), _MORE + 1)[1:]
         solution = solve_at_all_frequencies(
             section,
-            frequencies,
+            np.concatenate([frequencies, more[more > last]]),
             lowest_strip_frequency(fore - aft, ship.gravity),
             water_density=ship.water_density,
             gravity=ship.gravity,
         )
-        return cls(section.x, solution)
+        return cls(section, solution, ship.length)
+
+    @property
+    def x(self) -> float:
+        """Place of the section [m] in ship axes."""
+        return self.section.x
+
+    @cached_property
+    def memory(self) -> TransomMemory:
+        """Its momentum in the time domain. Raises PanelsimError where no few exponentials give it."""
+        return transom_memory(self.section, self.solution, self.length)
 
     @cached_property
     def added_mass(self) -> FloatArray:
