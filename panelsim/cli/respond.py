@@ -119,6 +119,7 @@ def case_response(
         wave_headings=_with(wave_headings, own, 2.0 * np.pi),
         speeds=_with(speeds, case.speed),
         supplementary=case.supplementary,
+        transom=case.transom(database),
     )
     at_points = {name: table.at(place) for name, place in points.items()}
     return CaseResponse(

@@ -16,7 +16,6 @@ from panelsim.errors import PanelsimError
 from panelsim.hydro.memory import MemoryFunctions
 
 
-
 class _Pencil(NamedTuple):
     """Of the samples of R: what one step of the pencil spans, and the stride of its rows and columns."""
 

@@ -29,23 +29,28 @@ from panelsim.ship.ship import Ship
 _AHEAD = 1e-4  # share of the wet length by which the cut is made ahead of the flat transom
 _SMALLEST = 0.01  # share of the midship section's area
 _MORE = 15  # frequencies
+_SAME_PLACE = 2e-3  # share of the length, by which a centre of gravity may differ with the panelling
 
 
 @dataclass(frozen=True, eq=False)
 class Transom:
-    """The solved section, its last frequency infinite and its first rest, of a ship of this length [m]."""
+    """The solved section, its last frequency infinite and its first rest, of a ship of this length [m].
+
+    `fingerprint` is that of the ship's hull.
+    """
 
     section: Section
     solution: SectionSolution
     length: float
+    fingerprint: str
 
     @classmethod
     def of_ship(cls, ship: Ship, frequencies: FloatArray) -> "Transom":
         """Cut and solve the aftmost wet section of a ship at rest.
 
         `frequencies` (F,) [rad/s], ascending from 0: those of the database that it goes with. A shallow
-        section still makes waves above them, and is solved to the highest that its elements resolve. Raises PanelsimError for a stern that ends
-        without a wet transom.
+        section still makes waves above them, and is solved to the highest that its elements resolve.
+        Raises PanelsimError for a stern that ends without a wet transom.
         """
         aft, fore = wet_ends(ship.vertices, ship.mesh.panels, ship.waterline)
         section = _section(ship, aft + _AHEAD * (fore - aft))
@@ -67,12 +72,23 @@ class Transom:
             water_density=ship.water_density,
             gravity=ship.gravity,
         )
-        return cls(section, solution, ship.length)
+        return cls(section, solution, ship.length, str(ship.identity()["form"]))
 
     @property
     def x(self) -> float:
         """Place of the section [m] in ship axes."""
         return self.section.x
+
+    def require_for(self, ship: Ship) -> None:
+        """Raise PanelsimError unless the transom is of the hull of this ship, and afloat as she is."""
+        aft, fore = wet_ends(ship.vertices, ship.mesh.panels, ship.waterline)
+        apart = abs(aft + _AHEAD * (fore - aft) - self.x)
+        if ship.identity()["form"] != self.fingerprint or apart > _SAME_PLACE * self.length:
+            raise PanelsimError(
+                f"The transom is of another ship than {ship.name}",
+                got=f"a section at x = {self.x:.6g} m of a hull of {self.length:.6g} m",
+                remedy="cut that of this ship: Transom.of_ship(ship, database.frequencies)",
+            )
 
     @cached_property
     def memory(self) -> TransomMemory:
