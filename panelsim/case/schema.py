@@ -52,7 +52,7 @@ class ShipSection(Section):
 
 
 class HydrodynamicsSection(Section):
-    """[hydrodynamics]: how coefficients are computed, or the file that holds them; terms of the transom at speed."""
+    """[hydrodynamics]: how coefficients are computed, or the file that holds them; the transom."""
 
     method: Literal["bem", "strip"] = "bem"
     file: Annotated[str, Field(min_length=1)] | None = None

@@ -28,7 +28,8 @@ from panelsim.ship.ship import Ship
 
 _AHEAD = 1e-4  # share of the wet length by which the cut is made ahead of the flat transom
 _SMALLEST = 0.01  # share of the midship section's area
-_MORE = 15  # frequencies
+_MORE = 15  # frequencies beyond the last
+_WORTH_MORE = 1.1  # times the last
 _SAME_PLACE = 2e-3  # share of the length, by which a centre of gravity may differ with the panelling
 
 
@@ -63,11 +64,11 @@ class Transom:
                 remedy="leave the transom terms out",
             )
         contour = Contour.of_nodes(contour_nodes(section, ELEMENTS), section.waterline)
-        last = frequencies[-1]
-        more = np.geomspace(last, max(last, highest_frequency(contour, ship.gravity)), _MORE + 1)[1:]
+        last, highest = frequencies[-1], highest_frequency(contour, ship.gravity)
+        more = np.geomspace(last, highest, _MORE + 1)[1:] if highest > _WORTH_MORE * last else np.empty(0)
         solution = solve_at_all_frequencies(
             section,
-            np.concatenate([frequencies, more[more > last]]),
+            np.concatenate([frequencies, more]),
             lowest_strip_frequency(fore - aft, ship.gravity),
             water_density=ship.water_density,
             gravity=ship.gravity,

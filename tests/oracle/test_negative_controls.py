@@ -131,7 +131,7 @@ def test_diffraction_without_its_convected_momentum_fails(
     """F_dif = −Ṗ_d alone, as if at zero speed: pitch in quartering and roll in bow seas are far off."""
 
     def without_lt(
-        database: HydroDatabase, frequency: FloatArray, wave_heading: FloatArray, speed: float
+        database: HydroDatabase, frequency: FloatArray, wave_heading: FloatArray, speed: float, transom: None
     ) -> ComplexArray:
         momentum = diffraction_momentum(database, frequency, wave_heading, speed)
         encounter = encounter_frequency(frequency, wave_heading, speed, database.gravity)
