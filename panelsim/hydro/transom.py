@@ -13,6 +13,7 @@ import numpy as np
 
 from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.hydro.conditioning import require_physical
 from panelsim.hydro.interpolation import at_frequency
 from panelsim.hydro.strip.assembly import lowest_strip_frequency, section_motion
 from panelsim.hydro.strip.contour import Contour, contour_nodes, highest_frequency
@@ -51,7 +52,8 @@ class Transom:
 
         `frequencies` (F,) [rad/s], ascending from 0: those of the database that it goes with. A shallow
         section still makes waves above them, and is solved to the highest that its elements resolve.
-        Raises PanelsimError for a stern that ends without a wet transom.
+        Raises PanelsimError for a stern that ends without a wet transom, and for a solution that no section
+        has.
         """
         aft, fore = wet_ends(ship.vertices, ship.mesh.panels, ship.waterline)
         section = _section(ship, aft + _AHEAD * (fore - aft))
@@ -73,7 +75,14 @@ class Transom:
             water_density=ship.water_density,
             gravity=ship.gravity,
         )
-        return cls(section, solution, ship.length, str(ship.identity()["form"]))
+        transom = cls(section, solution, ship.length, str(ship.identity()["form"]))
+        require_physical(
+            solution.frequencies[:-1],
+            transom.added_mass[:-1],
+            transom.damping[:-1],
+            float(np.abs(section.points[:, 0]).max()),
+        )
+        return transom
 
     @property
     def x(self) -> float:
