@@ -1,10 +1,14 @@
 """The end terms of a transom in the time domain: against the frequency domain, and with every scheme."""
 
+import re
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from panelsim.case import Case
+from panelsim.cli.respond import case_response
 from panelsim.conventions import KNOT, ComplexArray, Dof
 from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
@@ -19,6 +23,7 @@ from panelsim.response.response import response
 from panelsim.seaway.regular import RegularSeaway
 from panelsim.ship.bundled import load_ship
 from panelsim.ship.ship import Ship
+from panelsim.studies.run_case import run_case
 
 RAMP, DURATION, STEP = 40.0, 260.0, 0.2  # s
 SPRINGS = Supplementary(
@@ -221,3 +226,59 @@ def test_what_is_no_transom_of_this_ship_is_refused() -> None:
     assert "Transom.of_ship" in str(refusal.value)
     with pytest.raises(PanelsimError, match="The transom is of another kind"):
         short_run(ship, database, transom=True)
+
+
+# --- in a case
+
+
+SMALL_CASE = """
+[ship]
+hull = "{hull}"
+panel_area = {area}
+[hydrodynamics]
+transom_terms = true
+[seaway]
+kind = "regular"
+wave_height = 2.0
+wave_frequency = 0.7
+wave_heading_deg = 180
+[run]
+speed_knots = 20
+model = "linear"
+time_step = 0.2
+duration = 10
+ramp = 0
+"""
+
+
+def case_file(folder: Path, hull: str, area: float) -> Path:
+    path = folder / "case.toml"
+    path.write_text(SMALL_CASE.format(hull=hull, area=area), encoding="utf-8")
+    return path
+
+
+def test_a_case_has_them_in_both_domains(tmp_path: Path) -> None:
+    case = Case.load(case_file(tmp_path, "halifax", 12.0))
+    assert isinstance(case.transom(case.database()), Transom)
+    still, sides = np.array([0.0, 20 * KNOT]), np.array([np.pi])
+    bare = Case.load(case_file(tmp_path, "halifax", 12.0), ["hydrodynamics.transom_terms=false"])
+    assert bare.transom(bare.database()) is None
+    with_end, without = (case_response(c, sides, still, {}).table.transfer for c in (case, bare))
+    np.testing.assert_array_equal(with_end[0], without[0])
+    pitch = np.abs(with_end[1, ..., Dof.PITCH]).max() / np.abs(without[1, ..., Dof.PITCH]).max()
+    assert pitch < 0.99
+
+
+def test_a_case_of_a_hull_without_a_transom_writes_nothing(tmp_path: Path) -> None:
+    case = Case.load(case_file(tmp_path, "wigley_iii", 0.005))
+    with pytest.raises(PanelsimError, match="no wet transom"):
+        run_case(case, tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_code_of_the_page_runs() -> None:
+    page = (Path(__file__).parents[1] / "docs" / "transom.md").read_text(encoding="utf-8")
+    names: dict[str, object] = {}
+    for block in re.findall(r"```python\n(.*?)```", page, re.DOTALL):
+        exec(block, names)
+    assert names["history"].outcome == "finished"  # type: ignore[attr-defined]

@@ -2,8 +2,8 @@
 
 Salvesen, Tuck and Faltinsen (1970) integrate the force along the ship up to the transom; the terms that are
 left over there need the coefficients of this one section, which are two-dimensional whatever the source of
-the others. They hold for a transom that stays wet behind; whether they help is disputed, so that they are
-left out unless asked for.
+the others. They take the flow to leave the edge of the transom as if the hull went on; whether they help is
+disputed, so that they are left out unless asked for.
 """
 
 from dataclasses import dataclass

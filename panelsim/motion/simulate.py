@@ -32,8 +32,7 @@ from panelsim.seaway.seaways import Seaway
 from panelsim.ship.ship import Ship
 
 TRANSOM_NOTE = (
-    "Radiation and diffraction have the end terms of the transom (Salvesen, Tuck and Faltinsen 1970), as of"
-    " one that stays wet."
+    "Radiation and diffraction have the end terms of the transom (Salvesen, Tuck and Faltinsen 1970)."
 )
 
 
