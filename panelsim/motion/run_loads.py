@@ -40,8 +40,8 @@ def run_loads(
     pressure_method: str,
     pressure_rule: str,
     supplementary: Supplementary,
-    roll_damping: RollDamping | None,
-    transom: Transom | None,
+    roll_damping: RollDamping | None = None,
+    transom: Transom | None = None,
 ) -> RunLoads:
     """Loads on a ship in one sea at one speed [m/s] for each run of the batch.
 
