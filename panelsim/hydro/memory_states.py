@@ -24,8 +24,8 @@ class _Pencil(NamedTuple):
 
 
 # Samples are 0.032 s apart for a frigate, whose panels send out waves of 2.5 s or more. Sections resolve
-# shorter ones, and wide shallow ones make them; so the second pencil is tried where the first is not as good as
-# wanted. It may see no more than the beginning of R: with larger matrices the linear algebra would take
+# shorter ones, and wide shallow ones make them; so the second pencil is tried where the first is not good
+# enough. It may see no more than the beginning of R: with larger matrices the linear algebra would take
 # several threads, and its bits would depend on how many.
 _PENCILS = (_Pencil(5, 17), _Pencil(2, 7))
 _LARGEST, _FEWEST_ROWS = 90, 30
