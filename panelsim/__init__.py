@@ -105,7 +105,6 @@ _HOMES = {
     "hull_pressure": "loads.hull_pressure",
     "HullPressure": "loads.hull_pressure",
     "Supplementary": "loads.supplementary",
-    "RollDampingTerms": "hydro.roll_damping.terms",
     "natural_periods": "response.natural",
     "NaturalMode": "response.natural",
     "Response": "response.response",

@@ -20,6 +20,7 @@ from panelsim.conventions import KNOT, FloatArray
 from panelsim.hydro.database import HydroDatabase, Progress
 from panelsim.hydro.roll_damping.terms import RollDampingTerms
 from panelsim.hydro.store import database_for
+from panelsim.hydro.transom import Transom
 from panelsim.loads.supplementary import Supplementary
 from panelsim.seaway.random import RandomSeaway
 from panelsim.seaway.seaways import Seaway
@@ -116,6 +117,12 @@ class Case:
         """The hydrodynamic coefficients: from the case's file, stored before, or computed now."""
         method = self.file.hydrodynamics.method
         return self.stored_database() or database_for(self.ship, progress, method)
+
+    def transom(self, database: HydroDatabase) -> Transom | None:
+        """The section at the transom, if the case wants its terms; PanelsimError for a hull without one."""
+        if not self.file.hydrodynamics.transom_terms:
+            return None
+        return Transom.of_ship(self.ship, database.frequencies)
 
     def stored_database(self) -> HydroDatabase | None:
         """The coefficients of the file that the case names, or None where it names none.

@@ -52,10 +52,11 @@ class ShipSection(Section):
 
 
 class HydrodynamicsSection(Section):
-    """[hydrodynamics]: how coefficients are computed, or the file that holds them."""
+    """[hydrodynamics]: how coefficients are computed, or the file that holds them; the transom."""
 
     method: Literal["bem", "strip"] = "bem"
     file: Annotated[str, Field(min_length=1)] | None = None
+    transom_terms: bool = False
 
 
 class RunSection(Section):

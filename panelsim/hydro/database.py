@@ -14,6 +14,9 @@ from panelsim.files import write_whole
 from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.hull.refine import subdivided
 from panelsim.hydro.bem import Progress, highest_resolved_frequency, solve_radiation
+from panelsim.hydro.conditioning import require_physical
+from panelsim.hydro.memory import MemoryFunctions, memory_functions
+from panelsim.hydro.memory_states import MemoryStates, memory_states
 from panelsim.hydro.strip.database import highest_strip_frequency, solve_strips
 from panelsim.hydro.strip.mesh_sections import sections_of_mesh
 from panelsim.ship.bundled import default_panel_area
@@ -119,7 +122,10 @@ class HydroDatabase:
 
     @classmethod
     def load(cls, path: str | Path) -> "HydroDatabase":
-        """Read a database from NetCDF-4. Raises PanelsimError for a missing, damaged or foreign file."""
+        """Read a database from NetCDF-4.
+
+        Raises PanelsimError for a missing, damaged or foreign file, and for coefficients that no body has.
+        """
         path = Path(path)
         if not path.is_file():
             raise PanelsimError(
@@ -145,7 +151,11 @@ class HydroDatabase:
                 allowed=repr(FORMAT),
                 remedy="compute one with `panelsim hydro NAME -o FILE.nc`",
             )
-        return cls(dataset)
+        database = cls(dataset)
+        require_physical(
+            database.frequencies, database.added_mass, database.radiation_damping, database.half_breadth
+        )
+        return database
 
     def save(self, path: str | Path) -> None:
         """Write NetCDF-4, the potentials compressed in single precision, beside the target and renamed."""
@@ -177,6 +187,16 @@ class HydroDatabase:
     def added_mass_infinite(self) -> FloatArray:
         """A(∞) (6, 6), as it was computed or read."""
         return self.dataset["added_mass_infinite"].values
+
+    @cached_property
+    def memory(self) -> MemoryFunctions:
+        """Memory of the radiated waves. Raises PanelsimError as `memory_functions` does."""
+        return memory_functions(self)
+
+    @cached_property
+    def memory_states(self) -> MemoryStates:
+        """The memory as linear states. Raises PanelsimError as `memory_functions` and `memory_states` do."""
+        return memory_states(self.memory)
 
     @property
     def has_potentials(self) -> bool:

@@ -7,6 +7,7 @@ steady momentum for ever.
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -14,7 +15,6 @@ from scipy.interpolate import CubicSpline
 from panelsim.conventions import DOF_NAMES, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.conditioning import pair_scale
-from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.retardation import fourier_integral, tapered_momentum_kernel
 
 # The memory of a frigate of 120 m by 14 m; others go with the square root of length or, if stubby, of beam.
@@ -24,8 +24,33 @@ _TIME_SAMPLES = 1001
 # Ogilvie's relation is averaged where A is neither at its logarithmic start nor at the end of the mesh.
 _INFINITE_FITTED_ON = (0.05, 0.8)  # shares of the highest frequency
 _REBUILT_WITHIN = 0.03  # of the peak
-_ROUGH = 0.1  # share of the peak by which a damping off its neighbours tells of trapped water
 _ROUGH = 0.1  # change of damping from one frequency to the next that no single hull makes, of its peak
+
+
+class RadiationCoefficients(Protocol):
+    """What memory is made of: a `HydroDatabase`, or the section at a transom.
+
+    `frequencies` (F,) [rad/s] from 0; `added_mass` and `radiation_damping` (F, 6, 6), `added_mass_zero` and
+    `added_mass_infinite` (6, 6); `length` of the ship and `half_breadth` [m]; `damping_roughness` as from
+    `panelsim.hydro.conditioning`.
+    """
+
+    @property
+    def frequencies(self) -> FloatArray: ...
+    @property
+    def added_mass(self) -> FloatArray: ...
+    @property
+    def radiation_damping(self) -> FloatArray: ...
+    @property
+    def added_mass_zero(self) -> FloatArray: ...
+    @property
+    def added_mass_infinite(self) -> FloatArray: ...
+    @property
+    def length(self) -> float: ...
+    @property
+    def half_breadth(self) -> float: ...
+    @property
+    def damping_roughness(self) -> float: ...
 
 
 @dataclass(frozen=True)
@@ -48,6 +73,10 @@ class MemoryFunctions:
     rebuilt_added_mass: FloatArray
     rebuilt_damping: FloatArray
 
+    def __post_init__(self) -> None:
+        for array in (self.time, self.momentum_kernel, self.added_mass_infinite):
+            array.setflags(write=False)
+
     @property
     def memory_length(self) -> float:
         """Time [s] after which a velocity is forgotten."""
@@ -64,8 +93,8 @@ class MemoryFunctions:
         return self.spline(self.time, 1)
 
 
-def memory_functions(database: HydroDatabase) -> MemoryFunctions:
-    """Kernels from the radiation damping of a database.
+def memory_functions(database: RadiationCoefficients) -> MemoryFunctions:
+    """Kernels from the radiation damping of a database, which keeps them as `HydroDatabase.memory`.
 
     The memory is 32 s for a frigate of 120 m. Raises PanelsimError when A and B made again from R are more
     than 3 % of their peaks away from those of the database.

@@ -4,6 +4,7 @@ The kernel R(s) becomes the sum of decaying exponentials C exp(A s) B. Its momen
 any stepper advances with the motions, and a linear one exactly, whatever its step.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -14,16 +15,25 @@ from panelsim.conventions import DOF_NAMES, FloatArray, IntArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.memory import MemoryFunctions
 
-# Of the samples of R, 0.032 s apart for a frigate, which sends out waves of 2.5 s or more: what one step of
-# the pencil spans, and the stride of its rows and columns. With larger matrices the linear algebra would
-# take several threads, and its bits would depend on how many.
-_STEP = 5
-_STRIDE = 17
+
+class _Pencil(NamedTuple):
+    """Of the samples of R: what one step of the pencil spans, and the stride of its rows and columns."""
+
+    step: int
+    stride: int
+
+
+# Samples are 0.032 s apart for a frigate, whose panels send out waves of 2.5 s or more. Sections resolve
+# shorter ones, and wide shallow ones make them; so the second pencil is tried where the first is not good
+# enough. It may see no more than the beginning of R: with larger matrices the linear algebra would take
+# several threads, and its bits would depend on how many.
+_PENCILS = (_Pencil(5, 17), _Pencil(2, 7))
+_LARGEST, _FEWEST_ROWS = 90, 30
 _CHUNK = 300  # rows
 _ORDERS = range(12, 33, 4)
 _WANTED_ERROR = 0.001  # of the peaks of R
 _ALLOWED_ERROR = 0.01
-# A motion that radiates less than this part of the strongest has no peak to measure errors by.
+# A motion that radiates less than this part of the strongest has no memory, as surge in strip theory.
 _SMALLEST_PEAK = 1e-9
 
 
@@ -50,6 +60,16 @@ class MemoryStates:
     def count(self) -> int:
         """Number of states."""
         return len(self.transition)
+
+
+def side_by_side(momentum: MemoryStates, other: MemoryStates) -> MemoryStates:
+    """Both sets of states, one after the other, entered by the same velocity; P_m is that of the first."""
+    return MemoryStates(
+        transition=block_diag(momentum.transition, other.transition),
+        entrance=np.vstack([momentum.entrance, other.entrance]),
+        momentum=np.hstack([momentum.momentum, np.zeros((6, other.count))]),
+        error=max(momentum.error, other.error),
+    )
 
 
 class _Group(NamedTuple):
@@ -98,14 +118,17 @@ def memory_states(functions: MemoryFunctions) -> MemoryStates:
 
 
 def _groups(kernel: FloatArray) -> list[_Group]:
-    """Motions in and out of the centreplane apart where no kernel couples them, so that zeros stay zeros."""
+    """Motions that radiate, in and out of the centreplane apart where no kernel couples them, so that zeros
+    stay zeros."""
     in_plane, out_of_plane = np.array([0, 2, 4]), np.array([1, 3, 5])
     coupled = (
         kernel[:, in_plane[:, None], out_of_plane].any() or kernel[:, out_of_plane[:, None], in_plane].any()
     )
-    motions = [np.arange(6)] if coupled else [in_plane, out_of_plane]
     peak = np.abs(np.einsum("tii->ti", kernel)).max(axis=0)
-    scale = np.sqrt(np.maximum(peak, _SMALLEST_PEAK * peak.max()))
+    radiating = np.flatnonzero(peak > _SMALLEST_PEAK * peak.max())
+    planes = [np.arange(6)] if coupled else [in_plane, out_of_plane]
+    motions = [m for plane in planes if len(m := np.intersect1d(plane, radiating))]
+    scale = np.sqrt(peak)
     return [_Group(m, scale[m], kernel[:, m[:, None], m] / np.outer(scale[m], scale[m])) for m in motions]
 
 
@@ -117,15 +140,9 @@ def _integral(functions: MemoryFunctions, group: _Group) -> FloatArray:
 
 def _fit(time: FloatArray, group: _Group, integral: FloatArray) -> MemoryStates:
     """The smallest fit (n, m) of a kernel over its scales that is as good as wanted, else the best."""
-    left, size, right = np.linalg.svd(_hankel(group.kernel, 0))
-    later = left.T @ _hankel(group.kernel, _STEP) @ right.T
     motions = len(integral)
     best = MemoryStates(np.zeros((0, 0)), np.zeros((0, motions)), np.zeros((motions, 0)), np.inf)
-    for order in _ORDERS:
-        root = np.sqrt(size[:order])
-        step = later[:order, :order] / np.outer(root, root)
-        first = root[:, None] * right[:order, :motions]
-        poles, entrance = _modes(step, first, time[_STEP] - time[0])
+    for poles, entrance in _candidates(time, group.kernel):
         if len(poles) + np.count_nonzero(poles.imag) < 2 * motions:
             continue  # too few to meet the conditions
         fit = _weighted(time, group.kernel, integral, poles, entrance)
@@ -135,11 +152,25 @@ def _fit(time: FloatArray, group: _Group, integral: FloatArray) -> MemoryStates:
     return best
 
 
-def _hankel(kernel: FloatArray, shift: int) -> FloatArray:
+def _candidates(time: FloatArray, kernel: FloatArray) -> Iterator[tuple[FloatArray, FloatArray]]:
+    """Poles and rows of entrance as `_modes` gives them, by each pencil in ascending order."""
+    for pencil in _PENCILS:
+        left, size, right = np.linalg.svd(_hankel(kernel, pencil, 0))
+        later = left.T @ _hankel(kernel, pencil, pencil.step) @ right.T
+        for order in _ORDERS:
+            root = np.sqrt(size[:order])
+            step = later[:order, :order] / np.outer(root, root)
+            first = root[:, None] * right[:order, : kernel.shape[1]]
+            yield _modes(step, first, time[pencil.step] - time[0])
+
+
+def _hankel(kernel: FloatArray, pencil: _Pencil, shift: int) -> FloatArray:
     """Matrix of blocks R(t_i + t_j), all of them `shift` samples later."""
-    at = np.arange(0, (len(kernel) - _STEP + 1) // 2, _STRIDE)
+    motions = kernel.shape[1]
+    at = np.arange(0, (len(kernel) - pencil.step + 1) // 2, pencil.stride)
+    at = at[: max(_LARGEST // motions, _FEWEST_ROWS)]
     blocks = kernel[at[:, None] + at + shift]
-    side = len(at) * kernel.shape[1]
+    side = len(at) * motions
     return blocks.transpose(0, 2, 1, 3).reshape(side, side)
 
 

@@ -2,8 +2,8 @@
 
 Salvesen, Tuck and Faltinsen (1970) integrate the force along the ship up to the transom; the terms that are
 left over there need the coefficients of this one section, which are two-dimensional whatever the source of
-the others. They hold for a transom that stays wet behind; whether they help is disputed, so that they are
-left out unless asked for.
+the others. They take the flow to leave the edge of the transom as if the hull went on; whether they help is
+disputed, so that they are left out unless asked for.
 """
 
 from dataclasses import dataclass
@@ -13,33 +13,47 @@ import numpy as np
 
 from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.hydro.conditioning import require_physical
 from panelsim.hydro.interpolation import at_frequency
 from panelsim.hydro.strip.assembly import lowest_strip_frequency, section_motion
+from panelsim.hydro.strip.contour import Contour, contour_nodes, highest_frequency
+from panelsim.hydro.strip.frank import ELEMENTS
 from panelsim.hydro.strip.incident import diffraction_momentum_section
 from panelsim.hydro.strip.long_waves import solve_at_all_frequencies
 from panelsim.hydro.strip.mesh_sections import section_of_mesh, wet_ends
 from panelsim.hydro.strip.sections import Section
 from panelsim.hydro.strip.solution import SectionSolution
+from panelsim.hydro.transom_memory import TransomMemory, transom_memory
 from panelsim.seaway.dispersion import wavenumber
 from panelsim.ship.ship import Ship
 
 _AHEAD = 1e-4  # share of the wet length by which the cut is made ahead of the flat transom
 _SMALLEST = 0.01  # share of the midship section's area
+_MORE = 15  # frequencies beyond the last
+_WORTH_MORE = 1.1  # times the last
+_SAME_PLACE = 2e-3  # share of the length, by which a centre of gravity may differ with the panelling
 
 
 @dataclass(frozen=True, eq=False)
 class Transom:
-    """The solved section at x [m] in ship axes, its last frequency infinite and its first rest."""
+    """The solved section, its last frequency infinite and its first rest, of a ship of this length [m].
 
-    x: float
+    `fingerprint` is that of the ship's hull.
+    """
+
+    section: Section
     solution: SectionSolution
+    length: float
+    fingerprint: str
 
     @classmethod
     def of_ship(cls, ship: Ship, frequencies: FloatArray) -> "Transom":
         """Cut and solve the aftmost wet section of a ship at rest.
 
-        `frequencies` (F,) [rad/s], ascending from 0: those of the database that it goes with. Raises
-        PanelsimError for a stern that ends without a wet transom.
+        `frequencies` (F,) [rad/s], ascending from 0: those of the database that it goes with. A shallow
+        section still makes waves above them, and is solved to the highest that its elements resolve.
+        Raises PanelsimError for a stern that ends without a wet transom, and for a solution that no section
+        has.
         """
         aft, fore = wet_ends(ship.vertices, ship.mesh.panels, ship.waterline)
         section = _section(ship, aft + _AHEAD * (fore - aft))
@@ -51,14 +65,45 @@ class Transom:
                 allowed=f"{100 * _SMALLEST:.2g} % or more",
                 remedy="leave the transom terms out",
             )
+        contour = Contour.of_nodes(contour_nodes(section, ELEMENTS), section.waterline)
+        last, highest = frequencies[-1], highest_frequency(contour, ship.gravity)
+        more = np.geomspace(last, highest, _MORE + 1)[1:] if highest > _WORTH_MORE * last else np.empty(0)
         solution = solve_at_all_frequencies(
             section,
-            frequencies,
+            np.concatenate([frequencies, more]),
             lowest_strip_frequency(fore - aft, ship.gravity),
             water_density=ship.water_density,
             gravity=ship.gravity,
         )
-        return cls(section.x, solution)
+        transom = cls(section, solution, ship.length, str(ship.identity()["form"]))
+        require_physical(
+            solution.frequencies[:-1],
+            transom.added_mass[:-1],
+            transom.damping[:-1],
+            float(np.abs(section.points[:, 0]).max()),
+        )
+        return transom
+
+    @property
+    def x(self) -> float:
+        """Place of the section [m] in ship axes."""
+        return self.section.x
+
+    def require_for(self, ship: Ship) -> None:
+        """Raise PanelsimError unless the transom is of the hull of this ship, and afloat as she is."""
+        aft, fore = wet_ends(ship.vertices, ship.mesh.panels, ship.waterline)
+        apart = abs(aft + _AHEAD * (fore - aft) - self.x)
+        if ship.identity()["form"] != self.fingerprint or apart > _SAME_PLACE * self.length:
+            raise PanelsimError(
+                f"The transom is of another ship than {ship.name}",
+                got=f"a section at x = {self.x:.6g} m of a hull of {self.length:.6g} m",
+                remedy="cut that of this ship: Transom.of_ship(ship, database.frequencies)",
+            )
+
+    @cached_property
+    def memory(self) -> TransomMemory:
+        """Its momentum in the time domain. Raises PanelsimError where no few exponentials give it."""
+        return transom_memory(self.section, self.solution, self.length)
 
     @cached_property
     def added_mass(self) -> FloatArray:

@@ -2,8 +2,9 @@
 
 With ν = η̇ + L η (L35 = +U, L26 = −U: heave sees the pitch, sway the yaw of a moving ship) the water
 holds the momentum P = A∞ ν + P_m, P_m = ∫ R(s) ν(t − s) ds, and pushes back with
-F = −Ṗ + Lᵀ P. For a sinusoidal motion this is the table of Salvesen, Tuck and Faltinsen (1970) without
-transom terms; nothing is divided by ω_e, and C55 = −U² A33(0), C66 = −U² A22(0) (Munk) are in it.
+F = −Ṗ + Lᵀ P. For a sinusoidal motion this is the table of Salvesen, Tuck and Faltinsen (1970); nothing is
+divided by ω_e, and C55 = −U² A33(0), C66 = −U² A22(0) (Munk) are in it. The terms of a transom are −U P_T
+more, where P_T is the momentum per metre that the section there has of the same ν, with a memory of its own.
 """
 
 from collections.abc import Sequence
@@ -12,9 +13,10 @@ import numpy as np
 
 from panelsim.conventions import FloatArray
 from panelsim.hydro.database import HydroDatabase
-from panelsim.hydro.memory import memory_functions
-from panelsim.hydro.memory_states import memory_states
+from panelsim.hydro.memory_states import side_by_side
 from panelsim.hydro.speed_terms import speed_coupling
+from panelsim.hydro.transom import Transom
+from panelsim.hydro.transom_memory import TransomMemory
 from panelsim.loads.load import times_each
 
 
@@ -24,19 +26,26 @@ class Radiation:
     Not a `Load` of an instant alone: it also needs the past, which `MemoryStates` x hold: ẋ = A x + B ν,
     P_m = C x. A motion (B, 12 + n) is displacement η, velocity η̇ and memory x; all here is linear in it.
     `load_matrix` (B, 6, 12 + n) gives the load without its −A∞ η̈, which the equations of motion hold on the
-    left: −A∞ L η̇ − Ṗ_m + Lᵀ(A∞ ν + P_m). `memory_matrix` (B, n, 12 + n) gives ẋ.
+    left: −A∞ L η̇ − Ṗ_m + Lᵀ(A∞ ν + P_m). `memory_matrix` (B, n, 12 + n) gives ẋ. With a `transom` the
+    last of the states x are those of its memory, and the load has −U P_T.
     """
 
     name = "radiation"
 
-    def __init__(self, database: HydroDatabase, speeds: Sequence[float]) -> None:
-        functions = memory_functions(database)
-        states = memory_states(functions)
+    def __init__(
+        self, database: HydroDatabase, speeds: Sequence[float], transom: Transom | None = None
+    ) -> None:
+        states = database.memory_states
+        self.added_mass_infinite = database.memory.added_mass_infinite
+        if transom is not None:
+            states = side_by_side(states, transom.memory.states)
         self.states = states
-        self.added_mass_infinite = functions.added_mass_infinite
         self.coupling = speed_coupling(np.array(speeds, dtype=float))
         self.motion_size = 12 + states.count
         self.load_matrix = np.stack([self._load_matrix(coupling) for coupling in self.coupling])
+        if transom is not None:
+            for speed, coupling, load in zip(speeds, self.coupling, self.load_matrix, strict=True):
+                load -= speed * _momentum_matrix(transom.memory, coupling, states.count)
         enter = states.entrance
         self.memory_matrix = np.stack(
             [np.hstack([enter @ coupling, enter, states.transition]) for coupling in self.coupling]
@@ -62,3 +71,10 @@ class Radiation:
     def evaluate(self, motion: FloatArray) -> FloatArray:
         """Load (B, 6) without its −A∞ η̈."""
         return times_each(self.load_matrix, motion)
+
+
+def _momentum_matrix(memory: TransomMemory, coupling: FloatArray, states: int) -> FloatArray:
+    """P_T (6, 12 + n) by displacement, velocity and the last of `states` memory states at one speed."""
+    infinite = memory.added_mass_infinite
+    before = np.zeros((6, states - memory.states.count))
+    return np.hstack([infinite @ coupling, infinite, before, memory.states.momentum])

@@ -13,6 +13,7 @@ from panelsim.conventions import FloatArray
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.reach import require_waves_held
 from panelsim.hydro.roll_damping.terms import RollDampingTerms
+from panelsim.hydro.transom import Transom
 from panelsim.loads.load import Load
 from panelsim.loads.radiation import Radiation
 from panelsim.loads.roll_damping import RollDamping, describe_terms
@@ -52,12 +53,14 @@ class Batch:
     """Checked arguments of `simulate_batch`: SI units and radians, `case` as JSON text.
 
     `points` (3,) [m] of the ship by name, in hull axes.
+    With a `transom` no member lies still.
     """
 
     ship: Ship
     members: Sequence[Member]
     database: HydroDatabase
     supplementary: Supplementary
+    transom: Transom | None
     duration: float
     time_step: float
     ramp: float
@@ -137,6 +140,7 @@ class Batch:
             "ramp": self.ramp,
             "stretching": self.stretching,
             "pressure rule": self.pressure_rule,
+            "choice of transom terms": self.transom is not None,
             "set of supplementary terms": digest(
                 self.supplementary.stiffness_matrix, self.supplementary.damping_matrix
             ),
@@ -181,12 +185,13 @@ class Batch:
             pressure_rule=self.pressure_rule,
             supplementary=self.supplementary,
             roll_damping=RollDamping(damping) if damping else None,
+            transom=self.transom,
         )
 
     def _equations(self, loads: Sequence[Load]) -> EquationsOfMotion:
         """The equations of motion of all members; PanelsimError where step or coefficients do not suffice."""
         ship, members = self.ship, self.members
-        radiation = Radiation(self.database, [member.speed for member in members])
+        radiation = Radiation(self.database, [member.speed for member in members], self.transom)
         require_step_for_ship(
             self.time_step,
             self.stepper,

@@ -8,6 +8,7 @@ import numpy as np
 from panelsim.conventions import ComplexArray
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.diffraction import diffraction_load
+from panelsim.hydro.transom import Transom
 from panelsim.loads.froude_krylov import froude_krylov_transfer
 from panelsim.loads.linear_waves import LinearWaveLoad, wave_turning
 from panelsim.loads.load import Load
@@ -39,7 +40,8 @@ def run_loads(
     pressure_method: str,
     pressure_rule: str,
     supplementary: Supplementary,
-    roll_damping: RollDamping | None,
+    roll_damping: RollDamping | None = None,
+    transom: Transom | None = None,
 ) -> RunLoads:
     """Loads on a ship in one sea at one speed [m/s] for each run of the batch.
 
@@ -49,7 +51,7 @@ def run_loads(
     nonlinear = model == "nonlinear"
     incident = [froude_krylov_transfer(ship, sea) for sea in components]
     diffraction = [
-        diffraction_load(database, sea.frequency, sea.wave_heading, speed)
+        diffraction_load(database, sea.frequency, sea.wave_heading, speed, transom)
         for sea, speed in zip(components, speeds, strict=True)
     ]
 

@@ -10,6 +10,7 @@ from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.roll_damping.terms import RollDampingTerms
+from panelsim.hydro.transom import Transom
 from panelsim.loads.arguments import require_seaway
 from panelsim.loads.roll_damping import require_linear_terms
 from panelsim.loads.supplementary import Supplementary
@@ -31,6 +32,10 @@ from panelsim.seaway.seaways import Seaway
 from panelsim.ship.points import points_of_ship
 from panelsim.ship.ship import Ship
 
+TRANSOM_NOTE = (
+    "Radiation and diffraction have the end terms of the transom (Salvesen, Tuck and Faltinsen 1970)."
+)
+
 
 def simulate(
     ship: Ship,
@@ -49,6 +54,7 @@ def simulate(
     pressure_rule: str = "vertex+centre",
     supplementary: Supplementary | None = None,
     roll_damping: RollDampingTerms | None = None,
+    transom: Transom | None = None,
     initial_displacement: Sequence[float] | FloatArray = (0.0,) * 6,
     initial_velocity: Sequence[float] | FloatArray = (0.0,) * 6,
     capsize_angle: float = np.pi / 2,
@@ -69,7 +75,8 @@ def simulate(
     and `pressure_rule` are `method` and `rule` of `pressure_force`: how the waves are summed over the
     wetted surface, and where on a panel. `stepper` is "exponential" (one evaluation of the loads a step),
     "rk4" (four, the reference) or "ab3" (one). `roll_damping` is that of viscosity and lift, beside any that
-    `supplementary` has; the linear model takes linear terms only. The ship is held at
+    `supplementary` has; the linear model takes linear terms only. With a `transom`, the end terms of
+    Salvesen, Tuck and Faltinsen (1970) in radiation and diffraction, none at zero speed. The ship is held at
     `initial_displacement` (6,) [m, rad] until t = 0.
 
     The run ends early where |roll| exceeds `capsize_angle` [rad] (0 = never), where the motion
@@ -97,6 +104,7 @@ def simulate(
         pressure_rule=pressure_rule,
         supplementary=supplementary,
         roll_damping=None if roll_damping is None else [roll_damping],
+        transom=transom,
         initial_displacement=[initial_displacement],
         initial_velocity=[initial_velocity],
         capsize_angle=capsize_angle,
@@ -127,6 +135,7 @@ def simulate_batch(
     pressure_rule: str = "vertex+centre",
     supplementary: Supplementary | None = None,
     roll_damping: RollDampingTerms | Sequence[RollDampingTerms] | None = None,
+    transom: Transom | None = None,
     initial_displacement: ArrayLike | Sequence[ArrayLike] = (0.0,) * 6,
     initial_velocity: ArrayLike | Sequence[ArrayLike] = (0.0,) * 6,
     capsize_angle: float = np.pi / 2,
@@ -142,7 +151,8 @@ def simulate_batch(
     Each history is that of `simulate` in the same sea, bit for bit; together they take less time. The seas
     may differ in all: kind, phases, heading, number of waves. Arguments as for `simulate`, but that `speed`
     [m/s] may be one for each seaway, and so may `roll_damping`; `initial_displacement` and
-    `initial_velocity` may be (6,) or (B, 6), and `seeds` has one for each seaway. A run that ends early
+    `initial_velocity` may be (6,) or (B, 6), and `seeds` has one for each seaway. With a `transom` either all
+    ships are under way or none is. A run that ends early
     leaves the others as they are; an interrupt ends all, and all are kept. `cpu_seconds` and `jit_seconds`
     of a history are a share of those of the batch: of the time loop by the steps of the run, of compilation
     and set-up an equal one. `resume` has one history for each seaway, all cut at the same time.
@@ -170,11 +180,13 @@ def simulate_batch(
         six_numbers_each("initial_displacement", initial_displacement, len(members), angles=True),
         six_numbers_each("initial_velocity", initial_velocity, len(members), angles=False),
     )
+    transom = _transom_under_way(transom, ship, [member.speed for member in members])
     batch = Batch(
         ship=ship,
         members=members,
         database=database,
         supplementary=Supplementary() if supplementary is None else supplementary,
+        transom=transom,
         duration=duration,
         time_step=time_step,
         ramp=ramp,
@@ -186,10 +198,30 @@ def simulate_batch(
         pressure_rule=pressure_rule,
         capsize_angle=capsize_angle,
         case=kept_case,
-        notes=notes,
+        notes=notes if transom is None else [*notes, TRANSOM_NOTE],
         points=points_of_ship(points, ship.center_of_gravity, ship.vertices),
     )
     return batch.run(*start, progress, _histories(resume, len(members)))
+
+
+def _transom_under_way(transom: object, ship: Ship, speeds: Sequence[float]) -> Transom | None:
+    """The checked transom, or None where no ship moves: so that such a run is, bit for bit, one without."""
+    if transom is None:
+        return None
+    if not isinstance(transom, Transom):
+        raise PanelsimError(
+            "The transom is of another kind", got=repr(transom)[:60], allowed="a Transom, or None"
+        )
+    transom.require_for(ship)
+    moving = sum(speed > 0.0 for speed in speeds)
+    if 0 < moving < len(speeds):
+        raise PanelsimError(
+            "A batch with transom terms has ships at rest beside ships under way",
+            got=f"{len(speeds) - moving} of {len(speeds)} at rest",
+            allowed="all at rest, or none",
+            remedy="run the ships at rest in a batch of their own",
+        )
+    return transom if moving else None
 
 
 def _histories(resume: object, members: int) -> list[History] | None:

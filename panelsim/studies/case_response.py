@@ -80,6 +80,7 @@ def case_response(
         wave_headings=_with(wave_headings, heading, 2.0 * np.pi),
         speeds=speed,
         supplementary=case.supplementary,
+        transom=case.transom(database),
         roll_damping=[case.roll_damping_at(float(each), database) for each in speed],
     )
     in_sea = in_case_sea(case, table)

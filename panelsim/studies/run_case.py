@@ -96,6 +96,7 @@ def _run_into(
             pressure_rule=run.pressure_rule,
             supplementary=case.supplementary,
             roll_damping=case.roll_damping(database),
+            transom=case.transom(database),
             capsize_angle=float(np.deg2rad(run.capsize_angle_deg)),
             progress=on_run,
             case=case.resolved(),

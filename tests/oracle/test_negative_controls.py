@@ -22,6 +22,7 @@ from panelsim.conventions import DOF_NAMES, KNOT, ComplexArray, Dof, FloatArray
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.diffraction import diffraction_momentum
 from panelsim.hydro.memory import MemoryFunctions, memory_functions
+from panelsim.hydro.memory_states import memory_states
 from panelsim.loads.froude_krylov import froude_krylov_transfer
 from panelsim.loads.radiation import Radiation
 from panelsim.loads.supplementary import Supplementary
@@ -130,7 +131,7 @@ def test_diffraction_without_its_convected_momentum_fails(
     """F_dif = −Ṗ_d alone, as if at zero speed: pitch in quartering and roll in bow seas are far off."""
 
     def without_lt(
-        database: HydroDatabase, frequency: FloatArray, wave_heading: FloatArray, speed: float
+        database: HydroDatabase, frequency: FloatArray, wave_heading: FloatArray, speed: float, transom: None
     ) -> ComplexArray:
         momentum = diffraction_momentum(database, frequency, wave_heading, speed)
         encounter = encounter_frequency(frequency, wave_heading, speed, database.gravity)
@@ -196,7 +197,8 @@ def test_a_memory_that_fades_too_fast_fails(errors: Errors, monkeypatch: pytest.
         fade = np.exp(-whole.time / 3.0)[:, None, None]
         return replace(whole, momentum_kernel=whole.momentum_kernel * fade)
 
-    monkeypatch.setattr(panelsim.loads.radiation, "memory_functions", faded)
+    monkeypatch.setattr(HydroDatabase, "memory", property(faded))
+    monkeypatch.setattr(HydroDatabase, "memory_states", property(lambda of: memory_states(of.memory)))
     assert max(found.max() for found in errors().values()) > CLEAR
 
 
