@@ -1,6 +1,6 @@
 """The figures show the history's numbers in the units that they name."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import matplotlib.image
@@ -15,20 +15,6 @@ from panelsim.view.plots import plot_loads, plot_motions, plot_spectra
 
 MakeHistory = Callable[..., History]
 PLOTS = (plot_motions, plot_spectra, plot_loads)
-
-
-@pytest.fixture
-def drawn(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Figure]]:
-    """The figures that were saved."""
-    figures: list[Figure] = []
-    save = Figure.savefig
-
-    def keep(self: Figure, *args: object, **kwargs: object) -> None:
-        figures.append(self)
-        save(self, *args, **kwargs)
-
-    monkeypatch.setattr(Figure, "savefig", keep)
-    yield figures
 
 
 @pytest.mark.parametrize("plot", PLOTS)

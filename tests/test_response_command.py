@@ -188,20 +188,12 @@ def test_the_damping_of_each_heading_is_printed(call, tmp_path: Path) -> None:  
 
 
 def test_pictures_show_the_right_side_and_the_right_phase(
-    quick: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    quick: Case, tmp_path: Path, drawn: list[Figure]
 ) -> None:
-    figures: list[Figure] = []
-    save = Figure.savefig
-
-    def keep(self: Figure, *args: object, **kwargs: object) -> None:
-        figures.append(self)
-        save(self, *args, **kwargs)  # type: ignore[arg-type]
-
-    monkeypatch.setattr(Figure, "savefig", keep)
     found = case_response(quick, np.deg2rad([45.0, 150.0, 270.0]), np.array([10.0]), {})
     polar_picture(found.in_sea, tmp_path / "polar.png")
     transfer_picture(found.table, found.own_heading, quick.speed, tmp_path / "transfer.png")
-    polar, transfer = figures
+    polar, transfer = drawn
     heave = polar.axes[2]
     assert heave.get_theta_direction() == -1  # type: ignore[attr-defined]
     angle, radius = (np.asarray(values) for values in heave.lines[1].get_data())

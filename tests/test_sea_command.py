@@ -1,6 +1,5 @@
 """`panelsim sea`: it prints the numbers of the sea, and its picture shows it the right way round."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import matplotlib.image
@@ -99,20 +98,6 @@ def test_the_command_leaves_a_picture_and_the_components(
     )
     assert call(calm, "--out", tmp_path / "none") == 2
     assert not (tmp_path / "none").exists()
-
-
-@pytest.fixture
-def drawn(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Figure]]:
-    """The figures that were saved."""
-    figures: list[Figure] = []
-    save = Figure.savefig
-
-    def keep(self: Figure, *args: object, **kwargs: object) -> None:
-        figures.append(self)
-        save(self, *args, **kwargs)  # type: ignore[arg-type]
-
-    monkeypatch.setattr(Figure, "savefig", keep)
-    yield figures
 
 
 def test_the_picture_shows_where_waves_come_from(barge: Ship, tmp_path: Path, drawn: list[Figure]) -> None:
