@@ -1,6 +1,6 @@
 """The command `panelsim response`: the linear motions of the ship of a case, in its sea, from all sides."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -85,7 +85,9 @@ def _headings(text: str) -> FloatArray:
 def _speeds(case: Case, text: str | None) -> FloatArray:
     """Speeds (S,) [m/s]."""
     if text is not None:
-        knots = numbers("--speeds", text, "knots")
+        knots = numbers("--speeds", text, "knots", example="0:20:5")
+        if len(np.unique(knots)) < len(knots):
+            raise PanelsimError("A speed is given twice", got=f"{text} knots", remedy="give each once")
         if knots.min() < 0.0 or knots.max() * KNOT > FASTEST:
             raise PanelsimError(
                 "A speed is not that of a ship that goes ahead",
@@ -96,7 +98,7 @@ def _speeds(case: Case, text: str | None) -> FloatArray:
     return np.linspace(0.0, case.speed, 5) if case.speed > 0.0 else np.zeros(1)
 
 
-def numbers(option: str, text: str, unit: str) -> FloatArray:
+def numbers(option: str, text: str, unit: str, example: str = "0:180:15") -> FloatArray:
     """Numbers from "start:stop:step", both ends included, or from a list with commas.
 
     Raises PanelsimError for text that is neither.
@@ -115,7 +117,7 @@ def numbers(option: str, text: str, unit: str) -> FloatArray:
     raise PanelsimError(
         f"{option} is no range and no list of {unit}",
         got=text,
-        allowed=f"start:stop:step or a,b,c, up to {_MOST} values, for example 0:180:15",
+        allowed=f"start:stop:step or a,b,c, up to {_MOST} values, for example {example}",
     )
 
 
@@ -123,15 +125,31 @@ def _points(case: Case, texts: Sequence[str]) -> dict[str, FloatArray]:
     """Points (3,) [m] in hull axes by name, none of them one of the case."""
     points: dict[str, FloatArray] = {}
     for text in texts:
-        name, equals, place = text.partition("=")
-        if not equals:
-            raise PanelsimError(
-                "A point is not of the form NAME=X,Y,Z",
-                got=text,
-                allowed=f"for example bridge=20,0,15; the case has {', '.join(case.file.points) or 'none'}",
-            )
-        require_point_name(name)
-        if name in points or name in case.file.points:
+        name, place = _named_place(text, case.file.points)
+        if name in points:
             raise PanelsimError("A point is given twice", got=name, remedy="give each name once")
-        points[name] = numbers(f"--point {name}", place, "metres")
+        if name in case.file.points:
+            raise PanelsimError(
+                "The case has a point of this name already", got=name, remedy="give the other another name"
+            )
+        points[name] = place
     return points_of_ship(points, case.ship.center_of_gravity, case.ship.vertices)
+
+
+def _named_place(text: str, known: Collection[str]) -> tuple[str, FloatArray]:
+    """Name and place (3,) [m] from "NAME=X,Y,Z"; `known` are the points of the case."""
+    name, equals, place = text.partition("=")
+    if equals:
+        require_point_name(name)
+    try:
+        found = np.array([float(part) for part in place.split(",")])
+    except ValueError:
+        found = np.empty(0)
+    if not equals or found.shape != (3,) or not np.isfinite(found).all():
+        raise PanelsimError(
+            "A point is not of the form NAME=X,Y,Z with three finite numbers",
+            got=text,
+            allowed="metres forward of midships, to port, above the baseline, for example bridge=20,0,15;"
+            f" the case has {', '.join(known) or 'none'}",
+        )
+    return name, found

@@ -27,6 +27,10 @@ from panelsim.hydro.transom_memory import TransomMemory, transom_memory
 from panelsim.seaway.dispersion import wavenumber
 from panelsim.ship.ship import Ship
 
+TRANSOM_NOTE = (
+    "Radiation and diffraction have the end terms of the transom (Salvesen, Tuck and Faltinsen 1970)."
+)
+
 _AHEAD = 1e-4  # share of the wet length by which the cut is made ahead of the flat transom
 _SMALLEST = 0.01  # share of the midship section's area
 _MORE = 15  # frequencies beyond the last

@@ -259,6 +259,9 @@ class Batch:
             stepper=self.stepper,
             restart=restart,
             roll_damping=_roll_damping(member),
+            coefficients=str(self.database.dataset.attrs.get("solver", "not recorded")),
+            inertia=self.inertia,
+            transom_terms=self.transom is not None,
         )
         return with_points(history, self.points)
 

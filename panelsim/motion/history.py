@@ -99,6 +99,9 @@ class History:
         stepper: str = "none",
         restart: xr.Dataset | None = None,
         roll_damping: str = "none",
+        coefficients: str = "not recorded",
+        inertia: str = "not recorded",
+        transom_terms: bool = False,
     ) -> "History":
         """Gather what a run has computed, whole or cut short.
 
@@ -108,7 +111,8 @@ class History:
         [m/s]; `ramp` and `time_step` [s]; `case` JSON text; `cpu_seconds` of the time loop alone,
         compilation apart in `jit_seconds`; `notes` are sentences
         that a reader of the report should see; `stepper` the scheme, `restart` what it takes to go on,
-        `roll_damping` the terms in words.
+        `roll_damping` the terms in words; `coefficients` where they come from, `inertia` that of large angles
+        or linear, `transom_terms` whether they are in.
         Raises PanelsimError for an unknown outcome and for arrays that do not fit together.
         """
         if outcome not in OUTCOMES:
@@ -123,6 +127,9 @@ class History:
             "model": model,
             "stepper": stepper,
             "roll_damping": roll_damping,
+            "coefficients": coefficients,
+            "inertia": inertia,
+            "transom_terms": "yes" if transom_terms else "no",
             "pressure_method": pressure_method,
             "pressure_rule": pressure_rule,
             "speed": float(speed),

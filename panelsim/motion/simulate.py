@@ -10,7 +10,7 @@ from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.roll_damping.terms import RollDampingTerms
-from panelsim.hydro.transom import Transom
+from panelsim.hydro.transom import TRANSOM_NOTE, Transom
 from panelsim.loads.arguments import require_seaway
 from panelsim.loads.roll_damping import require_linear_terms
 from panelsim.loads.supplementary import Supplementary
@@ -31,10 +31,6 @@ from panelsim.motion.requirements import (
 from panelsim.seaway.seaways import Seaway
 from panelsim.ship.points import points_of_ship
 from panelsim.ship.ship import Ship
-
-TRANSOM_NOTE = (
-    "Radiation and diffraction have the end terms of the transom (Salvesen, Tuck and Faltinsen 1970)."
-)
 
 
 def simulate(

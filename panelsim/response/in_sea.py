@@ -11,7 +11,7 @@ from panelsim.response.arguments import different_headings
 from panelsim.response.linear_ship import LinearShip
 from panelsim.response.notes import sea_notes
 from panelsim.response.sea_waves import SeaWaves, waves_of_components, waves_of_directions, waves_of_spectrum
-from panelsim.response.signals import Signals
+from panelsim.response.signals import Signals, units_by_signal
 from panelsim.response.statistics import CourseStatistics, course_statistics
 from panelsim.seaway.direction.directional_spectrum import DirectionalSpectrum
 from panelsim.seaway.direction.spread_spectrum import SpreadSpectrum
@@ -52,6 +52,7 @@ def in_sea(
     ]
     dataset = _dataset(found, speeds, name, headings, signals)
     dataset.attrs = {
+        "ship": linear_ship.ship.name,
         "energy_share": waves.energy_share,
         "notes": "\n".join(sea_notes(linear_ship, motions, waves, dataset)),
     }
@@ -119,12 +120,13 @@ def _dataset(
             "unit": ("signal", list(signals.units)),
         },
     )
-    for variable, unit in (
-        ("zero_crossing_period", "s"),
-        ("peak_period", "s"),
-        ("equivalent_roll_damping", "N m s"),
+    for variable, unit, long_name in (
+        ("rms", units_by_signal(signals), "root mean square"),
+        ("zero_crossing_period", "s", "zero-crossing period of encounter"),
+        ("peak_period", "s", "peak period of encounter"),
+        ("equivalent_roll_damping", "N m s", "linear roll damping in this sea"),
     ):
-        dataset[variable].attrs["units"] = unit
+        dataset[variable].attrs = {"units": unit, "long_name": long_name}
     for array in dataset.variables.values():
         array.values.setflags(write=False)
     return dataset

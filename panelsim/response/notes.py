@@ -5,6 +5,7 @@ import xarray as xr
 
 from panelsim.conventions import Dof, FloatArray
 from panelsim.hydro.tabulated_diffraction import SPEED_NOTE
+from panelsim.hydro.transom import TRANSOM_NOTE
 from panelsim.response.linear_ship import LinearShip, MotionsInWaves
 from panelsim.response.sea_waves import SeaWaves
 
@@ -14,6 +15,8 @@ def response_notes(linear_ship: LinearShip, motions: MotionsInWaves, speeds: Flo
     notes = list(linear_ship.database.notes)
     if speeds.any() and not linear_ship.database.has_potentials:
         notes.append(SPEED_NOTE)
+    if speeds.any() and linear_ship.transom is not None:
+        notes.append(TRANSOM_NOTE)
     highest = linear_ship.database.frequencies[-1]
     beyond = np.abs(motions.encounter) > highest
     if beyond.any():

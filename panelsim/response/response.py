@@ -22,7 +22,8 @@ from panelsim.response.arguments import (
 )
 from panelsim.response.linear_ship import LinearShip, MotionsInWaves
 from panelsim.response.notes import response_notes
-from panelsim.response.signals import PointSignals, Signals, SixMotions
+from panelsim.response.origin import made_from
+from panelsim.response.signals import PointSignals, Signals, SixMotions, units_by_signal
 from panelsim.response.transfer_functions import TransferFunctions
 from panelsim.ship.points import point_of_ship
 from panelsim.ship.ship import Ship
@@ -34,6 +35,7 @@ _CONVENTIONS = {
     "headings": "rad, direction that waves travel relative to the ship: 0 following, pi/2 from port, pi head",
     "axes": "translating earth axes: x forward, y to port, z up",
 }
+_LOAD_UNITS = "N/m: surge, sway, heave; N m/m: roll, pitch, yaw"
 _BY_WAVE = ("speed", "wave_heading", "wave_frequency")
 
 
@@ -89,8 +91,8 @@ class Response(TransferFunctions):
         transfer = signals.of(self.transfer, by_wave, headings, self.encounter_frequency)
         dataset = xr.Dataset(
             {
-                "transfer": ((*_BY_WAVE, "signal"), transfer),
-                "encounter_frequency": (_BY_WAVE, self.encounter_frequency.copy(), {"units": "rad/s"}),
+                "transfer": ((*_BY_WAVE, "signal"), transfer, _transfer_attrs(signals)),
+                "encounter_frequency": self.dataset["encounter_frequency"].copy(),
                 "roll_damping": self.dataset["roll_damping"].copy(),
             },
             coords=_coordinates(self.speeds, self.wave_headings, self.wave_frequencies, signals),
@@ -130,10 +132,14 @@ def response(
     motions = linear.in_waves(waves[:, 0], waves[:, 1], speed, np.array([term.linear for term in terms]))
     dataset = _dataset(motions, omega, beta, speed)
     by_course = np.repeat([[term.linear] for term in terms], len(beta), axis=1)
-    dataset["roll_damping"] = ("speed", "wave_heading"), by_course, {"units": "N m s"}
+    dataset["roll_damping"] = (
+        ("speed", "wave_heading"),
+        by_course,
+        {"units": "N m s", "long_name": "linear roll damping in the transfer functions"},
+    )
     dataset.attrs |= {
         "format": FORMAT,
-        "ship": ship.name,
+        **made_from(linear, speed, terms),
         **_CONVENTIONS,
         "notes": "\n".join(response_notes(linear, motions, speed)),
     }
@@ -145,13 +151,32 @@ def _dataset(motions: MotionsInWaves, omega: FloatArray, beta: FloatArray, speed
     by_signal = (*_BY_WAVE, "signal")
     return xr.Dataset(
         {
-            "transfer": (by_signal, motions.transfer.reshape(*shape, 6)),
-            "froude_krylov": (by_signal[1:], motions.froude_krylov.reshape(*shape[1:], 6)),
-            "diffraction": (by_signal, motions.diffraction.reshape(*shape, 6)),
-            "encounter_frequency": (_BY_WAVE, motions.encounter.reshape(shape), {"units": "rad/s"}),
+            "transfer": (by_signal, motions.transfer.reshape(*shape, 6), _transfer_attrs(SixMotions())),
+            "froude_krylov": (
+                by_signal[1:],
+                motions.froude_krylov.reshape(*shape[1:], 6),
+                {"units": _LOAD_UNITS, "long_name": "Froude-Krylov load per metre of wave amplitude"},
+            ),
+            "diffraction": (
+                by_signal,
+                motions.diffraction.reshape(*shape, 6),
+                {"units": _LOAD_UNITS, "long_name": "diffraction load per metre of wave amplitude"},
+            ),
+            "encounter_frequency": (
+                _BY_WAVE,
+                motions.encounter.reshape(shape),
+                {"units": "rad/s", "long_name": "encounter frequency, below 0 where the ship overtakes"},
+            ),
         },
         coords=_coordinates(speed, beta, omega, SixMotions()),
     )
+
+
+def _transfer_attrs(signals: Signals) -> dict[str, str]:
+    return {
+        "units": units_by_signal(signals, per="/m"),
+        "long_name": "transfer function per metre of wave amplitude",
+    }
 
 
 def _coordinates(

@@ -35,6 +35,14 @@ class Signals(Protocol):
         """
 
 
+def units_by_signal(signals: Signals, per: str = "") -> str:
+    """Each unit, with `per` behind it, and the signals that have it: "m: surge, sway, heave; rad: roll …"."""
+    names: dict[str, list[str]] = {}
+    for name, unit in zip(signals.names, signals.units, strict=True):
+        names.setdefault(unit + per, []).append(name)
+    return "; ".join(f"{unit}: {', '.join(of_unit)}" for unit, of_unit in names.items())
+
+
 @dataclass(frozen=True)
 class SixMotions:
     """Surge to yaw at the centre of gravity."""

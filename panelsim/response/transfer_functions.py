@@ -135,5 +135,8 @@ def real_valued(dataset: xr.Dataset) -> xr.Dataset:
     complex_names = [str(name) for name, values in dataset.items() if np.iscomplexobj(values)]
     parts: dict[str, xr.DataArray] = {}
     for name in complex_names:
-        parts |= {f"{name}_real": dataset[name].real, f"{name}_imag": dataset[name].imag}
+        whole = dataset[name]
+        for short, long, part in (("real", "real", whole.real), ("imag", "imaginary", whole.imag)):
+            long_name = f"{long} part of {whole.attrs.get('long_name', name)}"
+            parts[f"{name}_{short}"] = part.assign_attrs(whole.attrs | {"long_name": long_name})
     return dataset.drop_vars(complex_names).assign(parts)

@@ -17,10 +17,11 @@ ROLL_COLUMNS = {"roll [deg]": np.pi / 180.0, "roll [rad]": 1.0, "displacement_ro
 
 @dataclass(frozen=True, eq=False)
 class DecayRecord:
-    """Roll from its release on: `time` (N,) [s] and `roll` (N,) [rad]."""
+    """Roll from its release on: `time` (N,) [s] and `roll` (N,) [rad]; `name` of the ship or of the file."""
 
     time: FloatArray
     roll: FloatArray
+    name: str = ""
 
     @classmethod
     def of_history(cls, history: History) -> "DecayRecord":
@@ -32,7 +33,7 @@ class DecayRecord:
                 remedy="run it with seaway.kind = calm and an initial heel, or give the case file itself",
             )
         rows = history.finite
-        return cls(history.time[rows], history.displacement[rows, Dof.ROLL])
+        return cls(history.time[rows], history.displacement[rows, Dof.ROLL], history.ship_name)
 
     @classmethod
     def read_csv(cls, path: Path) -> "DecayRecord":
@@ -55,7 +56,7 @@ class DecayRecord:
         places = heads.index(TIME_COLUMN), heads.index(known[0])
         numbers = np.array([_numbers(path, i, row, places) for i, row in enumerate(rows[1:], 2) if row])
         time, roll = numbers.reshape(-1, 2).T
-        return cls(time, ROLL_COLUMNS[known[0]] * roll)
+        return cls(time, ROLL_COLUMNS[known[0]] * roll, path.name)
 
 
 def _numbers(path: Path, line: int, row: list[str], places: tuple[int, int]) -> list[float]:

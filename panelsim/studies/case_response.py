@@ -1,7 +1,8 @@
 """The linear motions of the ship of a case: transfer functions, and statistics in its sea from all sides."""
 
+import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -45,7 +46,10 @@ class CaseResponse:
         return any(terms.quadratic or terms.cubic for terms in self.table.roll_damping)
 
     def save(self, path: Path) -> None:
-        """NetCDF with groups: the table at the root, `in_sea`, and for every point `points/NAME`."""
+        """NetCDF with groups: the table at the root, `in_sea`, and for every point `points/NAME`.
+
+        Every group has the coordinates of the one above too, so that it can be opened alone.
+        """
         groups = {"/": self.table.dataset, "/in_sea": self.in_sea}
         for name, (transfer, in_sea) in self.points.items():
             groups |= {f"/points/{name}": transfer.dataset, f"/points/{name}/in_sea": in_sea}
@@ -54,7 +58,8 @@ class CaseResponse:
             name: real_valued(group.rename(signal="point_signal") if name.startswith("/points") else group)
             for name, group in groups.items()
         }
-        write_whole(path, bytes(xr.DataTree.from_dict(apart).to_netcdf(engine="h5netcdf")))
+        tree = xr.DataTree.from_dict(apart)
+        write_whole(path, bytes(tree.to_netcdf(engine="h5netcdf", write_inherited_coords=True)))
 
 
 def case_response(
@@ -86,6 +91,7 @@ def case_response(
     in_sea = in_case_sea(case, table)
     equivalent = in_sea["equivalent_roll_damping"].values
     table = table.with_roll_damping(equivalent)
+    table = replace(table, dataset=table.dataset.assign_attrs(_of_case(case)))
     apart = np.abs(np.angle(np.exp(1j * (table.wave_headings - heading))))
     own = int(np.argmin(np.abs(table.speeds - case.speed))), int(np.argmin(apart))
     at_points = {name: table.at(place) for name, place in {**case.points, **points}.items()}
@@ -104,14 +110,39 @@ def in_case_sea(case: Case, table: TransferFunctions) -> xr.Dataset:
 
     A random sea by its spectrum, with its spread if it has one; other seas by their components.
     """
-    sea, beta = case.seaway, table.wave_headings
+    sea, beta, words = case.seaway, table.wave_headings, {"sea": sea_in_words(case)}
     if isinstance(sea, RandomSeaway) and sea.directional_spectrum is None:
-        return table.in_sea(sea.point_spectrum, wave_headings=beta)
+        return table.in_sea(sea.point_spectrum, wave_headings=beta).assign_attrs(words)
     # On another course the same sea comes from another side: β = ν + π - χ.
     courses = np.mod(sea.ship_heading + _own_heading(case) - beta, 2.0 * np.pi)
     spread = sea.directional_spectrum if isinstance(sea, RandomSeaway) else None
     found = table.in_sea(sea if spread is None else spread, ship_headings=courses)
-    return found.rename(ship_heading="wave_heading").assign_coords(wave_heading=beta)
+    return found.rename(ship_heading="wave_heading").assign_coords(wave_heading=beta).assign_attrs(words)
+
+
+def sea_in_words(case: Case) -> str:
+    """Kind, spectrum, height and period of the sea of the case, in one line."""
+    sea, section = case.seaway, case.file.seaway
+    waves = sea.components
+    if isinstance(sea, RandomSeaway):
+        height = 4.0 * np.sqrt(sea.point_spectrum.moment(0))
+        spread = "short-crested" if sea.directional_spectrum is not None else "long-crested"
+        return (
+            f"{section.spectrum or 'random'} sea, {spread}, significant height {height:.4g} m,"
+            f" mean period {sea.point_spectrum.mean_period:.4g} s"
+        )
+    if waves.count == 1:
+        return f"regular waves of {2.0 * waves.amplitude[0]:.4g} m and {waves.frequency[0]:.4g} rad/s"
+    return f"{sea.kind} sea of {waves.count} waves, significant height {4.0 * np.sqrt(waves.variance):.4g} m"
+
+
+def _of_case(case: Case) -> dict[str, str]:
+    """What only the case knows of its response."""
+    return {
+        "sea": sea_in_words(case),
+        "roll_damping_method": case.file.roll_damping.method,
+        "case": json.dumps(case.resolved(), ensure_ascii=False),
+    }
 
 
 def _frequencies(case: Case, database: HydroDatabase) -> FloatArray:

@@ -11,7 +11,7 @@ from panelsim.view.plots import COLORS, INK, plain, save
 
 
 def plot_roll_decay(record: DecayRecord, fit: RollDecay, path: Path) -> Path:
-    """The record with its fit, and what is left between them, in degrees; returns the path."""
+    """The record by its name with its fit, and what is left between them, in degrees; returns the path."""
     figure = Figure(figsize=(10, 6), layout="constrained")
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
     color = COLORS[4]
@@ -19,7 +19,7 @@ def plot_roll_decay(record: DecayRecord, fit: RollDecay, path: Path) -> Path:
     above.plot(record.time, np.rad2deg(fit.fitted), color=color, linewidth=1.3, label="fit")
     below.plot(record.time, np.rad2deg(record.roll - fit.fitted), color=INK, linewidth=0.8)
     above.set_title(
-        f"period {fit.period:.4g} s, damping ratio {100.0 * fit.damping_ratio:.3g} %,"
+        f"{record.name}\nperiod {fit.period:.4g} s, damping ratio {100.0 * fit.damping_ratio:.3g} %,"
         f" quadratic {fit.quadratic:.3g} 1/rad",
         fontsize=10,
     )

@@ -130,7 +130,10 @@ def _facts(history: History) -> dict[str, str]:
         "time step": f"{attrs['time_step']:g} s",
         # Histories of panelsim 0.1 were all made with it.
         "stepper": str(attrs.get("stepper", "rk4")),
-        "roll damping": str(attrs.get("roll_damping", "none")),
+        "coefficients": str(attrs.get("coefficients", "not recorded")),
+        "transom terms": str(attrs.get("transom_terms", "not recorded")),
+        "inertia": _inertia(history),
+        "roll damping": _roll_damping(history),
         "seed": str(attrs.get("seed", "none")),
         "panelsim": str(attrs["panelsim_version"]),
     }
@@ -142,6 +145,32 @@ def _pressure(history: History) -> str:
     if method == "none":
         return "that of the hull at rest" if history.attrs["model"] == "linear" else "not recorded"
     return f"method {method}, rule {rule}"
+
+
+def _inertia(history: History) -> str:
+    """Which inertia the run had; histories of older versions do not say."""
+    inertia = str(history.attrs.get("inertia", "not recorded"))
+    return {
+        "large": "that of large angles: it turns with the ship",
+        "linear": "that of small angles: constant",
+    }.get(inertia, inertia)
+
+
+def _roll_damping(history: History) -> str:
+    """How the roll damping was found, as the case says, and its terms."""
+    terms = str(history.attrs.get("roll_damping", "none"))
+    section = json.loads(history.attrs["case"]).get("roll_damping", {})
+    if terms == "none":
+        return "none beside the supplementary one"
+    found = {
+        "ikeda": "Ikeda's components",
+        "percent": f"{section.get('critical_percent', 0.0):g} % of critical",
+        "terms": "given terms",
+    }.get(section.get("method"), "given terms")
+    degrees = section.get("linearised_at_deg")
+    if degrees is not None and history.attrs["model"] == "linear":
+        found += f", made linear at {degrees:g} deg"
+    return f"{found}: {terms}"
 
 
 def _trim(angle: float) -> str:

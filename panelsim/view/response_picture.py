@@ -19,7 +19,11 @@ from panelsim.view.plots import COLORS, INK, plain, save
 MOST_HEADINGS = 5
 # Of the largest amplitude of a motion: below it a phase says nothing, and would tangle the picture.
 _LEAST = 0.03
-_STILL = 1e-6  # m/m or rad/rad
+_STILL = 1e-6  # m/m or rad/rad, m or rad: below it is rounding
+# A peak is a spike, which would hide the rest, if it is so many times what one amplitude in twenty exceeds:
+# surge and sway without damping where waves pass slowly, not the roll of a ship with bilge keels.
+_SPIKE, _USUAL = 4.0, 0.95
+_ROOM = 1.05  # above the largest value
 _HEADINGS = "wave heading\n(0° following,\n180° head)"
 
 
@@ -27,7 +31,8 @@ def transfer_picture(table: Response, own_heading: float, speed: float, path: Pa
     """Draw amplitude and phase of the six motions at the speed [m/s] nearest to this into a PNG file.
 
     For up to five headings, among them the one nearest to `own_heading` [rad], drawn thick. Rotations are
-    divided by the wave slope k; the phase is the lead over the crest at the centre of gravity.
+    divided by the wave slope k; the phase is the lead over the crest at the centre of gravity. A spike of a
+    motion that nothing damps is cut off, and the axis says how high it is.
     """
     figure = Figure(figsize=(13, 9), layout="constrained")
     axes = figure.subplots(4, 3, sharex=True)
@@ -40,19 +45,20 @@ def transfer_picture(table: Response, own_heading: float, speed: float, path: Pa
     for dof in Dof:
         amplitude, phase = axes[2 * (dof // 3), dof % 3], axes[2 * (dof // 3) + 1, dof % 3]
         motions = table.transfer[i, chosen, :, dof] / (1.0 if dof < Dof.ROLL else slope)
-        least = max(_STILL, _LEAST * float(np.abs(motions).max()))
+        motions = np.where(np.abs(motions) < _STILL, 0.0, motions)
+        unit = "m/m" if dof < Dof.ROLL else "rad/rad"
+        top = _limit_amplitude(amplitude, np.abs(motions), unit)
+        least = max(_STILL, _LEAST * top)
         for n, (j, values) in enumerate(zip(chosen, motions, strict=True)):
             width = 2.2 if j == own else 1.0
             label = f"{np.rad2deg(table.wave_headings[j]):.4g}°"
             color = COLORS[n % len(COLORS)]
             amplitude.plot(table.wave_frequencies, np.abs(values), color=color, linewidth=width, label=label)
             _phase_line(phase, table.wave_frequencies, values, least, color, width)
-        unit = "m/m" if dof < Dof.ROLL else "rad/rad"
         _label(amplitude, f"{DOF_NAMES[dof]} [{unit}]")
         _label(phase, "phase lead [deg]")
         phase.set_ylim(-180, 180)
         phase.set_yticks([-180, -90, 0, 90, 180])
-        amplitude.set_ylim(bottom=0.0)
     for axis in axes[-1]:
         axis.set_xlabel("wave frequency ω [rad/s]", fontsize=9)
     figure.legend(
@@ -63,9 +69,20 @@ def transfer_picture(table: Response, own_heading: float, speed: float, path: Pa
     )
     figure.suptitle(
         f"{table.dataset.attrs['ship']} at {table.speeds[i] / KNOT:.3g} knots, per wave amplitude"
-        f" and slope; no phase below {100 * _LEAST:g} % of the largest amplitude"
+        f" and slope; no phase below {100 * _LEAST:g} % of the largest amplitude shown"
     )
     return save(figure, path)
+
+
+def _limit_amplitude(axis: Axes, amplitude: FloatArray, unit: str) -> float:
+    """Set the axis of an amplitude (H, F), which leaves out a spike and says so; returns where it ends."""
+    largest = float(amplitude.max())
+    usual = _SPIKE * float(np.quantile(amplitude, _USUAL))
+    top = usual if 0.0 < usual < largest else largest
+    axis.set_ylim(0.0, _ROOM * top or 1.0)
+    if top < largest:
+        axis.set_title(f"cut off: a spike of {largest:.3g} {unit}", fontsize=8)
+    return top
 
 
 def _phase_line(
@@ -86,8 +103,8 @@ def _label(axis: Axes, text: str) -> None:
 def polar_picture(in_sea: xr.Dataset, path: Path) -> Path:
     """Draw the RMS of the six motions by where the waves come from, bow up, a curve for every speed.
 
-    `in_sea` as `Response.in_sea` gives it by wave heading. Headings of one side only are drawn on both, as a
-    symmetric ship has them.
+    `in_sea` as `Response.in_sea` gives it by wave heading; its attribute `sea` says in words which sea it is.
+    Headings of one side only are drawn on both, as a symmetric ship has them.
     """
     figure = Figure(figsize=(13, 9), layout="constrained")
     headings = np.mod(in_sea["wave_heading"].values, 2.0 * np.pi)
@@ -98,21 +115,24 @@ def polar_picture(in_sea: xr.Dataset, path: Path) -> Path:
         unit, factor = display_unit(DOF_NAMES[dof])
         for speed, color in zip(in_sea["speed"].values, shades, strict=True):
             rms = factor * in_sea["rms"].sel(speed=speed, signal=DOF_NAMES[dof]).values
-            angle, radius = _around(headings, rms)
-            axis.plot(angle, radius, color=color, label=f"{speed / KNOT:.3g} knots", linewidth=1.4)
+            angle, radius = _around(headings, np.where(rms < factor * _STILL, 0.0, rms))
+            label = f"{speed / KNOT:.3g} knots"
+            axis.plot(angle, radius, ".-", color=color, label=label, linewidth=1.4, clip_on=False)
         # Clockwise from the bow: head waves (β = π) at 0, waves from port (π/2) at 270°.
         axis.set_theta_zero_location("N")
         axis.set_theta_direction(-1)
         axis.set_xticks(np.deg2rad([0, 90, 180, 270]))
         axis.set_xticklabels(["bow", "starboard", "stern", "port"])
-        axis.set_ylim(bottom=0.0)
+        largest = factor * float(in_sea["rms"].sel(signal=DOF_NAMES[dof]).fillna(0.0).max())
+        axis.set_ylim(0.0, _ROOM * largest if largest >= factor * _STILL else 1.0)
         axis.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
         axis.tick_params(colors=INK, labelsize=8)
         axis.tick_params(axis="x", pad=10)
         axis.grid(color="#dddddd", linewidth=0.6)
         axis.set_title(f"{DOF_NAMES[dof]}, RMS [{unit}]", fontsize=10)
     figure.axes[2].legend(frameon=False, fontsize=8, loc="upper left", bbox_to_anchor=(0.95, 1.1))
-    figure.suptitle("RMS by where the waves come from")
+    what = [str(in_sea.attrs[name]) for name in ("ship", "sea") if name in in_sea.attrs]
+    figure.suptitle("\n".join([", ".join(what), "RMS by where the waves come from"]).strip())
     return save(figure, path)
 
 

@@ -17,6 +17,7 @@ from panelsim.hydro.strip.frank import ELEMENTS
 from panelsim.hydro.strip.long_waves import solve_at_all_frequencies
 from panelsim.hydro.strip.sections import HullSections
 
+_SLENDER = 3.0  # times the beam; ships are four times and more
 SECTION_DOFS = tuple(DOF_NAMES[dof] for dof in (Dof.SWAY, Dof.HEAVE, Dof.ROLL))
 
 
@@ -59,9 +60,26 @@ def solve_strips(
         gravity=gravity,
         lowest_strip_frequency=lowest,
         solver=f"strip theory, {len(solutions)} sections of {ELEMENTS} elements",
-        notes="Strip theory: no radiation and no diffraction in surge; heave and pitch are led to their"
-        f" limits at rest below {lowest:.3g} rad/s, where waves are longer than three ships.",
+        notes="\n".join(
+            [
+                "Strip theory: no radiation and no diffraction in surge; heave and pitch are led to their"
+                f" limits at rest below {lowest:.3g} rad/s, where waves are longer than three ships.",
+                *_slenderness_note(sections),
+            ]
+        ),
     )
+
+
+def _slenderness_note(sections: HullSections) -> list[str]:
+    """Say where the hull is not the slender one that strip theory is for."""
+    length = sections.fore_end - sections.aft_end
+    beam = max(float(np.ptp(section.points[:, 0])) for section in sections.sections)
+    if length >= _SLENDER * beam:
+        return []
+    return [
+        f"Strip theory is for slender hulls: this one is only {length / beam:.2g} times as long as it is wide"
+        f" below the water, less than {_SLENDER:g}; take method bem."
+    ]
 
 
 def highest_strip_frequency(sections: HullSections, gravity: float) -> float:
