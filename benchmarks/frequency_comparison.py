@@ -332,7 +332,9 @@ def page(study: Study, found: list[Comparison]) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--write", action="store_true", help="write reports/frequency_domain.md and plots")
     arguments = parser.parse_args()
     ship = ps.load_ship("halifax", 2.5)

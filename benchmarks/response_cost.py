@@ -5,6 +5,7 @@ with the RMS in a long-crested sea of every heading and speed, which solves the 
 the plain loop, one call of `response` for each speed, heading and frequency, estimated from 60 of them.
 """
 
+import argparse
 import time
 from collections.abc import Callable
 
@@ -30,6 +31,10 @@ def seconds(call: Callable[[], object], repeats: int = REPEATS) -> float:
 
 
 def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.parse_args()
     ship = ps.load_ship("halifax", panel_area=2.5)
     begin = time.process_time()
     database = ps.database_for(ship)

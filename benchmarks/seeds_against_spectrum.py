@@ -5,6 +5,8 @@ seas. How far their mean may lie from the spectral value is found from theory be
 frequency_comparison.py puts the tables into its report.
 """
 
+import argparse
+
 import numpy as np
 
 import panelsim as ps
@@ -119,6 +121,10 @@ def seeds_section(ship: ps.Ship, database: ps.HydroDatabase, supplementary: ps.S
 
 
 def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.parse_args()
     ship = ps.load_ship("halifax", 2.5)
     print("\n".join(seeds_section(ship, ps.database_for(ship), ps.Supplementary.of(ship))))
 

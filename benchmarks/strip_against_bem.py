@@ -85,16 +85,16 @@ def plot_coefficients(sources: dict[str, HydroDatabase]) -> None:
 
 
 def plot_by_wave(
-    name: str, ship: Ship, curves: dict[tuple[int, int], dict[str, FloatArray]], units: tuple[str, str]
+    name: str, curves: dict[tuple[int, int], dict[str, FloatArray]], units: tuple[str, str], per: str
 ) -> None:
-    """Amplitudes (M, 6) of every mode and case; a name that ends in "transom" is drawn dotted."""
-    figure, axes = plt.subplots(5, len(CASES), figsize=(13, 13), sharex=True, layout="constrained")
+    """Amplitudes (M, 6) of every mode and case, per what the title says; a name that ends in "transom" is drawn dotted."""
+    figure, axes = plt.subplots(5, len(CASES), figsize=(13, 13), layout="constrained")
     for column, case in enumerate(CASES):
-        for row, dof in enumerate((*VERTICAL, *LATERAL)):
-            axis = axes[row, column]
-            if case[1] == 180 and dof in LATERAL:
-                axis.set_axis_off()  # head seas move a symmetric ship in her plane of symmetry only
-                continue
+        # Head seas move a symmetric ship in her plane of symmetry only.
+        shown = VERTICAL if case[1] == 180 else (*VERTICAL, *LATERAL)
+        for axis in axes[len(shown) :, column]:
+            axis.set_axis_off()
+        for axis, dof in zip(axes[:, column], shown, strict=False):
             for label, values in curves[case].items():
                 source = label.split(",")[0]
                 style = ":" if label.endswith("transom") else "-"
@@ -102,12 +102,12 @@ def plot_by_wave(
                 axis.plot(OMEGA, values[:, dof], style, color=COLOURS[source], label=text)
             axis.set_ylim(bottom=0.0)
             axis.grid(alpha=0.3)
-            if row == 0:
-                axis.set_title(f"{case[0]} knots, {case[1]}°")
             axis.set_ylabel(f"{DOF_NAMES[dof]} [{units[dof > 2]}]", fontsize=8)
-    for axis in axes[-1]:
-        axis.set_xlabel("wave frequency [rad/s]")
-    axes[0, -1].legend(fontsize=7)
+        axes[0, column].set_title(f"{case[0]} knots, {case[1]}°")
+        axes[len(shown) - 1, column].set_xlabel("wave frequency [rad/s]")
+    handles, labels = axes[0, -1].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(handles))
+    figure.suptitle(per)
     figure.savefig(REPORTS / f"strip_theory_{name}.png", dpi=110)
 
 
@@ -250,7 +250,9 @@ def comparisons(ship: Ship, sources: dict[str, HydroDatabase], found: dict[str, 
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--write", action="store_true", help="write reports/strip_theory.md and its plots")
     arguments = parser.parse_args()
     ship = load_ship("frigate")
@@ -278,8 +280,8 @@ def main() -> None:
         REPORTS.mkdir(exist_ok=True)
         plot_coefficients(sources)
         loads = {c: {s: np.abs(v) for s, v in by.items()} for c, by in found["diffraction"].items()}
-        plot_by_wave("diffraction", ship, loads, ("N/m", "N"))
-        plot_by_wave("motions", ship, drawn, ("-", "over slope"))
+        plot_by_wave("diffraction", loads, ("N", "N m"), "per metre of wave amplitude")
+        plot_by_wave("motions", drawn, ("m/m", "rad/rad"), "per wave amplitude and slope")
         (REPORTS / "strip_theory.md").write_text(text, encoding="utf-8")
 
 

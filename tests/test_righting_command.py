@@ -89,14 +89,20 @@ def test_a_wave_gives_crest_and_trough_and_its_files(
     wave = ("--wave-length", 120, "--wave-height", 6)
     code, out, err = call("righting", case, *wave, "-o", file)
     assert (code, err) == (0, "")
-    assert "crest amidships" in out and "trough amidships" in out
+    assert out.count("crest amidships") == out.count("trough amidships") == 2
+    assert max(map(len, out.splitlines()[:-1])) <= 80
     table = np.genfromtxt(file, delimiter=",", names=True)
     assert len(table) == 37
     for name, crest in (("crest", 0.0), ("trough", 60.0)):
         found = righting_arm_in_wave(frigate, HEELS, FrozenWave(120.0, 6.0, crest))
-        # Nine digits are written.
-        assert table[f"righting_arm_{name}_amidships_m"][::6] == pytest.approx(found.arm, rel=1e-7, abs=1e-8)
-        assert table[f"trim_{name}_amidships_deg"][::6] == pytest.approx(np.degrees(found.trim), abs=1e-6)
+        # Six decimals are written.
+        arm, trim = (
+            table[f"{what}_{name}_amidships_{unit}"]
+            for what, unit in (("righting_arm", "m"), ("trim", "deg"))
+        )
+        assert arm[::6] == pytest.approx(found.arm, abs=6e-7)
+        assert trim[::6] == pytest.approx(np.degrees(found.trim), abs=6e-7)
+        assert arm[0] == 0.0  # upright there is none, not some 1e-17
     assert table["heel_deg"][6] == 30.0
     assert sorted(path.name for path in file.parent.iterdir()) == ["gz.csv", "gz.png"]
 
@@ -105,6 +111,8 @@ def test_a_wave_gives_crest_and_trough_and_its_files(
     code, out, _ = call("righting", case, *wave, "--crest", 10, "--pressure", "hydrostatic")
     hydrostatic = righting_arm_in_wave(frigate, HEELS, FrozenWave(120.0, 6.0, 10.0), pressure="hydrostatic")
     assert code == 0 and f"{hydrostatic.gm:.3f}" in out
+    # No name of a row or a column is broken.
+    assert "crest 10 m forward of midships" in out and "area 30 to 40 deg [m rad] " in out
     assert "crest 10 m forward of midships" in " ".join(out.split())
 
 

@@ -103,8 +103,7 @@ def show_righting(ship: Ship, curves: Sequence[RightingArms]) -> None:
 
 
 def _table(first: str, curves: Sequence[RightingArms]) -> Table:
-    table = Table(first, *(curve.water for curve in curves), box=None, padding=(0, 2))
-    table.columns[0].no_wrap = True
+    table = Table(first, *(curve.water for curve in curves), box=None, padding=(0, 1))
     for column in table.columns[1:]:
         column.justify = "right"
     return table
