@@ -17,7 +17,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 import panelsim as ps
 from panelsim.conventions import DOF_NAMES, FloatArray
@@ -151,7 +151,7 @@ def picture(rows: list[Row], path: Path) -> None:
         axis.set_xlabel("force evaluations a simulated second")
         # Over less than a decade matplotlib would label the minor ticks too, one over the other.
         axis.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        axis.xaxis.set_major_formatter(ScalarFormatter())
+        axis.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
         axis.xaxis.set_minor_formatter(NullFormatter())
         axis.grid(True, which="both", alpha=0.3)
     axes[0].set_ylabel("error of the series, worst motion, % of its RMS")

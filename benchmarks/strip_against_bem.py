@@ -87,7 +87,10 @@ def plot_coefficients(sources: dict[str, HydroDatabase]) -> None:
 def plot_by_wave(
     name: str, curves: dict[tuple[int, int], dict[str, FloatArray]], units: tuple[str, str], per: str
 ) -> None:
-    """Amplitudes (M, 6) of every mode and case, per what the title says; a name that ends in "transom" is drawn dotted."""
+    """Amplitudes (M, 6) of every mode and case; a name that ends in "transom" is drawn dotted.
+
+    `per` is the title: what they are divided by.
+    """
     figure, axes = plt.subplots(5, len(CASES), figsize=(13, 13), layout="constrained")
     for column, case in enumerate(CASES):
         # Head seas move a symmetric ship in her plane of symmetry only.

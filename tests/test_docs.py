@@ -12,16 +12,39 @@ DOCS = PROJECT / "docs"
 PAGES = sorted([*DOCS.glob("*.md"), PROJECT / "README.md", *(PROJECT / "examples").glob("*.py")])
 
 
-@pytest.mark.parametrize(
-    ("page", "name", "shape"), [("pressure.md", "force", (6,)), ("coefficients.md", "load", (3, 6))]
-)
-def test_the_code_of_a_page_runs(page: str, name: str, shape: tuple[int, ...]) -> None:
+def run_code(page: str) -> dict[str, object]:
+    """Run the Python of a page from its first block to its last; what it has named."""
     blocks = re.findall(r"```python\n(.*?)```", (DOCS / page).read_text(encoding="utf-8"), re.DOTALL)
     assert blocks
     names: dict[str, object] = {}
     for block in blocks:
         exec(block, names)
-    assert names[name].shape == shape  # type: ignore[attr-defined]
+    return names
+
+
+@pytest.mark.parametrize(
+    ("page", "name", "shape"), [("pressure.md", "force", (6,)), ("coefficients.md", "load", (3, 6))]
+)
+def test_the_code_of_a_page_runs(page: str, name: str, shape: tuple[int, ...]) -> None:
+    assert run_code(page)[name].shape == shape  # type: ignore[attr-defined]
+
+
+def test_the_views_of_the_page_on_seas_agree() -> None:
+    """A ship that goes straight for a minute meets what is there: 480 m on at 8 m/s."""
+    names = run_code("seaways.md")
+    at_rest, meeting = names["at_rest"], names["meeting"]
+    # The ship heads north, along the fixed x axis.
+    there = at_rest.elevation(480.0, 0.0, 60.0)  # type: ignore[attr-defined]
+    assert meeting.elevation(0.0, 0.0, 60.0) == pytest.approx(there, rel=1e-9)  # type: ignore[attr-defined]
+
+
+def test_the_pages_on_runs_keep_their_word(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)  # a page saves a history
+    names = run_code("time_stepping.md")
+    whole = ps.simulate(names["ship"], names["sea"], duration=60, **names["settings"])  # type: ignore
+    assert names["whole"].same_bits(whole)  # type: ignore[attr-defined]
+    names = run_code("roll_damping.md")
+    assert names["both"][1].same_bits(names["history"])  # type: ignore[index]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)

@@ -113,7 +113,6 @@ def test_a_wave_gives_crest_and_trough_and_its_files(
     assert code == 0 and f"{hydrostatic.gm:.3f}" in out
     # No name of a row or a column is broken.
     assert "crest 10 m forward of midships" in out and "area 30 to 40 deg [m rad] " in out
-    assert "crest 10 m forward of midships" in " ".join(out.split())
 
 
 @pytest.mark.parametrize(
