@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 
 from panelsim.case import Case
@@ -80,7 +81,12 @@ def printed(out: str, row: str) -> float:
 
 @pytest.mark.parametrize(("column", "unit"), [("roll [deg]", np.pi / 180.0), ("roll [rad]", 1.0)])
 def test_a_record_gives_its_coefficients_back(
-    column: str, unit: float, call: Call, record: Callable[[str, float], Path], tmp_path: Path
+    column: str,
+    unit: float,
+    call: Call,
+    record: Callable[[str, float], Path],
+    tmp_path: Path,
+    drawn: list[Figure],
 ) -> None:
     code, out, err = call(record(column, unit))
     assert (code, err) == (0, "")
@@ -94,6 +100,7 @@ def test_a_record_gives_its_coefficients_back(
     with_quadratic = ratio + 100.0 * 4.0 / (3.0 * np.pi) * QUADRATIC * np.deg2rad(12.0)
     assert printed(out, "with b2 at 12°") == pytest.approx(with_quadratic, rel=5e-3)
     assert "runs/tank-decay: decay.png" in out
+    assert drawn[0].axes[0].get_title().startswith("tank.csv\nperiod 9")
     assert (tmp_path / "runs/tank-decay/decay.png").stat().st_size > 10_000
 
 

@@ -1,15 +1,19 @@
 """The page of a run says what was run and what came out, from the history alone."""
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.transom import Transom
 from panelsim.motion.history import History
 from panelsim.results.statistics import statistics
 from panelsim.results.tables import statistics_markdown
 from panelsim.seaway.components import NO_WAVES, WaveComponents
+from panelsim.ship.ship import Ship
 from panelsim.view.report import report
 
 MakeHistory = Callable[..., History]
@@ -93,3 +97,51 @@ def test_the_page_tells_a_short_crested_sea_and_a_stokes_wave(
     page = report(make_history(components=wave), tmp_path / "wave").read_text(encoding="utf-8")
     assert "height 2 m, Stokes second order" in page
     assert "directional spread" not in page
+
+
+@pytest.mark.parametrize(
+    ("section", "words"),
+    [
+        ({"method": "ikeda"}, "Ikeda's components: linear 3 N m s"),
+        ({"method": "percent", "critical_percent": 5.0}, "5 % of critical: linear 3 N m s"),
+        ({"method": "terms", "linear": 3.0}, "given terms: linear 3 N m s"),
+        ({}, "given terms: linear 3 N m s"),  # of a script
+    ],
+)
+def test_the_page_names_what_the_loads_are_made_from(
+    make_history: MakeHistory, tmp_path: Path, section: dict[str, object], words: str
+) -> None:
+    history = make_history(
+        case=json.dumps({"roll_damping": section}),
+        roll_damping="linear 3 N m s",
+        coefficients="strip theory, 21 sections",
+        inertia="large",
+        transom_terms=True,
+    )
+    page = report(history, tmp_path).read_text(encoding="utf-8")
+    for row in (
+        f"| roll damping | {words} |",
+        "| coefficients | strip theory, 21 sections |",
+        "| inertia | that of large angles: it turns with the ship |",
+        "| transom terms | yes |",
+    ):
+        assert row in page
+
+
+def test_linearised_roll_damping_says_at_which_amplitude(make_history: MakeHistory, tmp_path: Path) -> None:
+    case = json.dumps({"roll_damping": {"method": "ikeda", "linearised_at_deg": 10.0}})
+    made = make_history(case=case, roll_damping="linear 3 N m s", model="linear", inertia="linear")
+    page = report(made, tmp_path).read_text(encoding="utf-8")
+    assert "Ikeda's components, made linear at 10 deg: linear 3 N m s" in page
+    assert "| inertia | that of small angles: constant |" in page and "| transom terms | no |" in page
+
+
+def test_a_run_tells_the_page_what_it_was_made_from(
+    run_halifax: Callable[..., History], halifax: Ship, halifax_database: HydroDatabase
+) -> None:
+    transom = Transom.of_ship(halifax, halifax_database.frequencies)
+    with_terms = run_halifax(duration=1.0, speed=5.0, transom=transom).attrs
+    without = run_halifax(duration=1.0, model="linear").attrs
+    assert "Capytaine" in with_terms["coefficients"]
+    assert (with_terms["transom_terms"], without["transom_terms"]) == ("yes", "no")
+    assert (with_terms["inertia"], without["inertia"]) == ("large", "linear")

@@ -1,5 +1,6 @@
 """`panelsim response`: its table, its file and its pictures, and what it refuses."""
 
+import json
 import re
 import sys
 from pathlib import Path
@@ -9,6 +10,7 @@ import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
+import panelsim
 from panelsim.case import Case
 from panelsim.cli import main
 from panelsim.cli.respond import numbers
@@ -223,14 +225,20 @@ def test_pictures_show_the_right_side_and_the_right_phase(
         (["--headings", "0,360"], "twice"),
         (["--speeds", "-5,10"], "goes ahead"),
         (["--speeds", "nan"], "--speeds"),
+        (["--speeds", "inf"], "for example 0:20:5"),
+        (["--speeds", "0:20"], "for example 0:20:5"),
+        (["--speeds", "5,5"], "got: 5,5 knots"),
         (["--point", "bridge"], "NAME=X,Y,Z"),
         (["--point", "mast", "--set", "points.bridge=[20.0, 0.0, 15.0]"], "the case has bridge"),
         (["--point", "a=1,2"], "three finite numbers"),
-        (["--point", "a=1,2,nan"], "--point a"),
+        (["--point", "a=1,2,nan"], "three finite numbers"),
+        (["--point", "a=0:20:10"], "NAME=X,Y,Z"),
+        (["--point", "a=nan,0,0"], "NAME=X,Y,Z"),
+        (["--point", "bridge=1,2", "--set", "points.bridge=[20.0, 0.0, 15.0]"], "three finite numbers"),
         (["--point", "a/b=1,2,3"], "a/b"),
         (["--point", "a=2000,0,15"], "far off the ship"),
         (["--point", "a=1,2,3", "--point", "a=1,2,3"], "twice"),
-        (["--point", "a=1,2,3", "--set", "points.a=[20.0, 0.0, 15.0]"], "twice"),
+        (["--point", "a=1,2,3", "--set", "points.a=[20.0, 0.0, 15.0]"], "The case has a point"),
         (["--set", "points.a=[2000.0, 0.0, 15.0]"], "far off the ship"),
         (["--set", 'roll_damping.method="ikeda"'], "counted twice"),
         (["--set", 'seaway={kind="calm"}'], "calm"),
@@ -261,3 +269,107 @@ def test_the_code_of_the_page_runs() -> None:
         exec(block, names)
     # RMS of heave of the frigate of TM 2003-190 at 20 knots in bow seas of 7.5 m.
     assert names["heave"] == pytest.approx(1.67, abs=0.02)
+
+
+def test_the_file_says_what_made_it_and_each_group_stands_alone(tmp_path: Path) -> None:
+    case = Case.load(
+        EXAMPLE,
+        [
+            "ship.panel_area=20",
+            "hydrodynamics.transom_terms=true",
+            "supplementary.damping={sway=2e6}",
+            "roll_damping.method=ikeda",
+        ],
+    )
+    found = case_response(
+        case, np.deg2rad([150.0]), np.array([case.speed]), {"bridge": np.array([20, 0, 15])}
+    )
+    found.save(tmp_path / "r.nc")
+    root = xr.load_dataset(tmp_path / "r.nc", engine="h5netcdf")
+    about = root.attrs
+    assert about["ship"] == case.ship.name and about["panelsim_version"] == panelsim.__version__
+    assert (about["draft"], about["mass"]) == (case.ship.draft, case.ship.mass)
+    assert "Capytaine" in about["coefficients"] and about["transom_terms"] == "yes"
+    assert json.loads(about["supplementary"])["damping"] == {"sway": 2e6}
+    assert about["roll_damping_method"] == "ikeda"
+    assert f"linear {found.table.roll_damping[0].linear:.4g} N m s" in about["roll_damping"]
+    assert json.loads(about["case"])["hydrodynamics"]["transom_terms"] is True
+    sea = "bretschneider sea, long-crested, significant height 7.5 m, mean period 11.58 s"  # 0.77177 · 15 s
+    assert about["sea"] == sea
+    for variable in root.data_vars.values():
+        assert {"units", "long_name"} <= set(variable.attrs), variable.name
+    units = {"units": "m/m: surge, sway, heave; rad/m: roll, pitch, yaw"}
+    assert units.items() <= root["transfer_imag"].attrs.items()
+    assert (
+        root["transfer_imag"].attrs["long_name"].startswith("imaginary part of transfer function per metre")
+    )
+    for group, of_point in (("in_sea", False), ("points/bridge", True), ("points/bridge/in_sea", True)):
+        alone = xr.load_dataset(tmp_path / "r.nc", group=group, engine="h5netcdf")
+        np.testing.assert_array_equal(alone["speed"], root["speed"])
+        np.testing.assert_array_equal(alone["wave_heading"], root["wave_heading"])
+        np.testing.assert_array_equal(alone["wave_frequency"], root["wave_frequency"])
+        name, unit = ("transfer_real", "/m") if group == "points/bridge" else ("rms", "")
+        first = "m{}: displacement_x" if of_point else "m{}: surge, sway, heave; rad"
+        assert alone[name].attrs["units"].startswith(first.format("/m" if unit else ""))
+        assert alone.attrs["ship"] == case.ship.name and alone.attrs["sea"] == sea
+    assert any("end terms of the transom" in note for note in found.table.notes)
+
+
+def test_roll_damping_of_each_speed_is_told(quick: Case) -> None:
+    database = quick.database()
+    table = response(
+        quick.ship,
+        database,
+        frequencies=[0.5],
+        wave_headings=[np.pi],
+        speeds=[0.0, 5.0],
+        supplementary=quick.supplementary,
+        roll_damping=[RollDampingTerms(1e6), RollDampingTerms(2e6, 3e7)],
+    )
+    assert table.dataset.attrs["roll_damping"] == (
+        "at 0 m/s linear 1e+06 N m s, quadratic 0 N m s2, cubic 0 N m s3;"
+        " at 5 m/s linear 2e+06 N m s, quadratic 3e+07 N m s2, cubic 0 N m s3"
+    )
+    assert table.dataset.attrs["transom_terms"] == "no"
+
+
+def test_head_seas_alone_are_points_and_motions_out_of_the_plane_are_nothing(
+    quick: Case, tmp_path: Path, drawn: list[Figure]
+) -> None:
+    found = case_response(
+        Case.load(EXAMPLE, ["ship.panel_area=20", "seaway.wave_heading_deg=180"]),
+        np.array([np.pi]),
+        np.array([quick.speed]),
+        {},
+    )
+    polar_picture(found.in_sea, tmp_path / "polar.png")
+    transfer_picture(found.table, found.own_heading, quick.speed, tmp_path / "transfer.png")
+    polar, transfer = drawn
+    assert polar.get_suptitle().startswith(f"{quick.ship.name}, bretschneider sea")
+    for dof in range(6):
+        (line,) = polar.axes[dof].lines
+        assert line.get_marker() == "."
+        rms = np.asarray(line.get_ydata())
+        if dof in (1, 3, 5):
+            assert np.all(rms == 0.0) and polar.axes[dof].get_ylim() == (0.0, 1.0)
+        else:
+            factor = 180 / np.pi if dof > 2 else 1.0
+            assert rms == pytest.approx(factor * found.in_sea["rms"].values[0, 0, dof])
+            assert polar.axes[dof].get_ylim()[1] > rms.max()
+        amplitude = transfer.axes[6 * (dof // 3) + dof % 3]
+        assert np.any(amplitude.lines[0].get_ydata()) == (dof not in (1, 3, 5))  # type: ignore[arg-type]
+        assert amplitude.get_title() == ""
+
+
+def test_a_spike_is_cut_off_and_told(tmp_path: Path, drawn: list[Figure]) -> None:
+    """Nothing damps the surge on its spring in following seas: its peak is hundreds of times the rest."""
+    loose = ["ship.panel_area=20", "supplementary={stiffness={surge=5e5, sway=1e6, yaw=2e9}, damping={}}"]
+    case = Case.load(EXAMPLE, [*loose, "seaway.wave_heading_deg=0"])
+    found = case_response(case, np.array([0.0]), np.array([case.speed]), {})
+    transfer_picture(found.table, found.own_heading, case.speed, tmp_path / "transfer.png")
+    surge, heave = drawn[0].axes[0], drawn[0].axes[2]
+    largest = float(np.abs(found.table.transfer[0, 0, :, 0]).max())
+    usual = float(np.quantile(np.abs(found.table.transfer[0, 0, :, 0]), 0.95))
+    assert surge.get_title() == f"cut off: a spike of {largest:.3g} m/m"
+    assert surge.get_ylim()[1] == pytest.approx(1.05 * 4.0 * usual) and 4.0 * usual < largest
+    assert heave.get_title() == ""

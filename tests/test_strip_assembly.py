@@ -35,11 +35,11 @@ RADIUS, LENGTH, FORWARD, KEEL_TO_CG = 2.0, 40.0, 7.0, 0.5
 GRID = np.array([0.0, 0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.3, 1.6, 2.0])
 
 
-def half_cylinder(strips: int = 16) -> HullSections:
+def half_cylinder(strips: int = 16, hull_length: float = LENGTH) -> HullSections:
     """A prism of semicircles, its middle forward of the CG and the water below it."""
     angle = np.linspace(-np.pi, 0.0, 181)
     outline = RADIUS * np.stack([np.cos(angle), np.sin(angle)], axis=1) - [0.0, KEEL_TO_CG]
-    edges = FORWARD + LENGTH * (np.linspace(0.0, 1.0, strips + 1) - 0.5)
+    edges = FORWARD + hull_length * (np.linspace(0.0, 1.0, strips + 1) - 0.5)
     middles = 0.5 * (edges[1:] + edges[:-1])
     return HullSections(tuple(Section(x, outline, -KEEL_TO_CG) for x in middles), edges[0], edges[-1])
 
@@ -252,6 +252,13 @@ def test_a_database_of_strips_is_stored_and_belongs_to_its_ship(tmp_path: Path) 
     assert again.dataset.identical(strip.dataset)
     assert "21 sections" in again.dataset.attrs["solver"]
     assert "no radiation and no diffraction in surge" in coverage(again)
+
+
+@pytest.mark.parametrize(("times_the_beam", "noted"), [(2.9, True), (3.1, False)])
+def test_a_hull_that_is_not_slender_is_noted(times_the_beam: float, noted: bool) -> None:
+    database = of_sections(half_cylinder(5, hull_length=times_the_beam * 2.0 * RADIUS))
+    assert len(database.notes) == (2 if noted else 1)
+    assert (f"only {times_the_beam:g} times as long as it is wide" in coverage(database)) is noted
 
 
 def test_the_store_keeps_the_two_methods_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

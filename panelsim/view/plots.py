@@ -5,7 +5,6 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from scipy.signal import welch
 
 from panelsim.conventions import DOF_NAMES, FloatArray
 from panelsim.files import replacing
@@ -47,6 +46,8 @@ def plot_motions(history: History, path: Path) -> Path:
 
 def plot_spectra(history: History, path: Path) -> Path:
     """Spectral densities of the waves and the motions over encounter frequency, by Welch's method."""
+    from scipy.signal import welch  # 0.3 s, which pictures of other things should not pay
+
     figure = Figure(figsize=(12, 6), layout="constrained")
     axes = figure.subplots(2, 4, sharex=True).ravel()
     rows = history.finite & (history.time >= history.attrs["ramp"])

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import find_peaks, savgol_filter
 
 from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
@@ -68,6 +67,8 @@ def fit_extinction_curve(time: FloatArray, roll: FloatArray) -> Extinction:
 
 def _extremes(time: FloatArray, roll: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Instants and values of the alternating highs and lows of a record, each from a parabola about it."""
+    from scipy.signal import find_peaks, savgol_filter  # 0.3 s, which no other command should pay
+
     even = np.linspace(time[0], time[-1], max(len(time), 200))
     step = even[1] - even[0]
     record = np.interp(even, time, roll)
