@@ -281,9 +281,8 @@ def test_the_file_says_what_made_it_and_each_group_stands_alone(tmp_path: Path) 
             "roll_damping.method=ikeda",
         ],
     )
-    found = case_response(
-        case, np.deg2rad([150.0]), np.array([case.speed]), {"bridge": np.array([20, 0, 15])}
-    )
+    bridge = {"bridge": np.array([20.0, 0.0, 15.0])}
+    found = case_response(case, np.deg2rad([150.0]), np.array([case.speed]), bridge)
     found.save(tmp_path / "r.nc")
     root = xr.load_dataset(tmp_path / "r.nc", engine="h5netcdf")
     about = root.attrs
@@ -298,19 +297,17 @@ def test_the_file_says_what_made_it_and_each_group_stands_alone(tmp_path: Path) 
     assert about["sea"] == sea
     for variable in root.data_vars.values():
         assert {"units", "long_name"} <= set(variable.attrs), variable.name
-    units = {"units": "m/m: surge, sway, heave; rad/m: roll, pitch, yaw"}
-    assert units.items() <= root["transfer_imag"].attrs.items()
-    assert (
-        root["transfer_imag"].attrs["long_name"].startswith("imaginary part of transfer function per metre")
-    )
+    imaginary = root["transfer_imag"].attrs
+    assert imaginary["units"] == "m/m: surge, sway, heave; rad/m: roll, pitch, yaw"
+    assert imaginary["long_name"] == "imaginary part of transfer function per metre of wave amplitude"
     for group, of_point in (("in_sea", False), ("points/bridge", True), ("points/bridge/in_sea", True)):
         alone = xr.load_dataset(tmp_path / "r.nc", group=group, engine="h5netcdf")
         np.testing.assert_array_equal(alone["speed"], root["speed"])
         np.testing.assert_array_equal(alone["wave_heading"], root["wave_heading"])
         np.testing.assert_array_equal(alone["wave_frequency"], root["wave_frequency"])
-        name, unit = ("transfer_real", "/m") if group == "points/bridge" else ("rms", "")
-        first = "m{}: displacement_x" if of_point else "m{}: surge, sway, heave; rad"
-        assert alone[name].attrs["units"].startswith(first.format("/m" if unit else ""))
+        name, unit = ("transfer_real", "m/m") if group == "points/bridge" else ("rms", "m")
+        signal = "displacement_x" if of_point else "surge"
+        assert alone[name].attrs["units"].startswith(f"{unit}: {signal}")
         assert alone.attrs["ship"] == case.ship.name and alone.attrs["sea"] == sea
     assert any("end terms of the transom" in note for note in found.table.notes)
 

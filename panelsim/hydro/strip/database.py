@@ -77,7 +77,7 @@ def _slenderness_note(sections: HullSections) -> list[str]:
     if length >= _SLENDER * beam:
         return []
     return [
-        f"Strip theory is for slender hulls: this one is only {length / beam:.2g} times as long as it is wide"
+        f"Strip theory is for slender hulls: this one is only {length / beam:.1f} times as long as it is wide"
         f" below the water, less than {_SLENDER:g}; take method bem."
     ]
 
