@@ -78,7 +78,7 @@ def _limit_amplitude(axis: Axes, amplitude: FloatArray, unit: str) -> float:
     """Set the axis of an amplitude (H, F), which leaves out a spike and says so; returns where it ends."""
     largest = float(amplitude.max())
     usual = _SPIKE * float(np.quantile(amplitude, _USUAL))
-    top = usual if 0.0 < usual < largest else largest
+    top = usual if 0.0 < _ROOM * usual < largest else largest
     axis.set_ylim(0.0, _ROOM * top or 1.0)
     if top < largest:
         axis.set_title(f"cut off: a spike of {largest:.3g} {unit}", fontsize=8)
