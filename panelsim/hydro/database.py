@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
-from panelsim.files import write_whole
+from panelsim.files import as_path, require_new, write_whole
 from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.hull.refine import subdivided
 from panelsim.hydro.bem import Progress, highest_resolved_frequency, solve_radiation
@@ -20,7 +20,7 @@ from panelsim.hydro.memory_states import MemoryStates, memory_states
 from panelsim.hydro.strip.database import highest_strip_frequency, solve_strips
 from panelsim.hydro.strip.mesh_sections import sections_of_mesh
 from panelsim.ship.bundled import default_panel_area
-from panelsim.ship.ship import Ship
+from panelsim.ship.ship import Ship, require_ship
 
 FORMAT = "panelsim hydrodynamic database 1"
 _CONVENTIONS = {
@@ -77,11 +77,12 @@ class HydroDatabase:
         panels (`panelsim.hydro.strip.assembly`): for a slender hull, without surge, and with coefficients by
         section. A ship with a hull form is panelled anew, as finely as the frequencies need; one without is
         solved on its own mesh, for "bem" with coarse panels split in four. `progress(done, total)` counts
-        frequencies or sections. Raises PanelsimError for another method, for a solution that is not physical
-        and for sections that cannot be cut.
+        frequencies or sections. Raises PanelsimError for what is no ship, for another method, for a solution
+        that is not physical and for sections that cannot be cut.
         """
+        require_ship(ship)
         if method not in METHODS:
-            raise PanelsimError("This method is not known", got=method, allowed=" | ".join(METHODS))
+            raise PanelsimError("This method is not known", got=repr(method)[:60], allowed=" | ".join(METHODS))
         solved = _panelled_for_solution(ship)
         _require_same_flotation(ship, solved)
         if method == "strip":
@@ -126,7 +127,7 @@ class HydroDatabase:
 
         Raises PanelsimError for a missing, damaged or foreign file, and for coefficients that no body has.
         """
-        path = Path(path)
+        path = as_path(path)
         if not path.is_file():
             raise PanelsimError(
                 "There is no hydrodynamic database here",
@@ -142,26 +143,24 @@ class HydroDatabase:
                 got=f"{path} ({error})",
                 remedy="compute it again with `panelsim hydro NAME -o FILE.nc`",
             ) from error
-        held = set(dataset.data_vars)
-        whole = held >= _COEFFICIENTS and (held >= _POTENTIALS or held >= _TABLES)
-        if dataset.attrs.get("format") != FORMAT or not whole:
-            raise PanelsimError(
-                "This file is no hydrodynamic database of panelsim",
-                got=f"{path}, format {dataset.attrs.get('format')!r}",
-                allowed=repr(FORMAT),
-                remedy="compute one with `panelsim hydro NAME -o FILE.nc`",
-            )
+        _require_whole(path, dataset)
         database = cls(dataset)
         require_physical(
             database.frequencies, database.added_mass, database.radiation_damping, database.half_breadth
         )
         return database
 
-    def save(self, path: str | Path) -> None:
-        """Write NetCDF-4, the potentials compressed in single precision, beside the target and renamed."""
+    def save(self, path: str | Path, *, overwrite: bool = False) -> Path:
+        """Write NetCDF-4, the potentials compressed in single precision, beside the target and renamed.
+
+        An existing file is refused unless `overwrite`.
+        """
+        path = as_path(path)
+        require_new(path, "database", overwrite=overwrite)
         compressed = {"dtype": "float32", "compression": "gzip", "compression_opts": 6, "shuffle": True}
         encoding = {name: compressed for name in self.dataset.data_vars if str(name).startswith("potential")}
-        write_whole(Path(path), bytes(self.dataset.to_netcdf(engine="h5netcdf", encoding=encoding)))
+        write_whole(path, bytes(self.dataset.to_netcdf(engine="h5netcdf", encoding=encoding)))
+        return path
 
     @cached_property
     def frequencies(self) -> FloatArray:
@@ -311,6 +310,26 @@ class HydroDatabase:
                 got="; ".join(differences),
                 remedy="compute one for this ship with `panelsim hydro NAME -o FILE.nc`",
             )
+
+
+def _require_whole(path: Path, dataset: xr.Dataset) -> None:
+    """Raise PanelsimError for a dataset of another format, or one that lacks variables."""
+    remedy = "compute one with `panelsim hydro NAME -o FILE.nc`"
+    if dataset.attrs.get("format") != FORMAT:
+        raise PanelsimError(
+            "This file is no hydrodynamic database of panelsim",
+            got=f"{path}, format {dataset.attrs.get('format')!r}",
+            allowed=repr(FORMAT),
+            remedy=remedy,
+        )
+    lacking = [_COEFFICIENTS.union(waves).difference(dataset.data_vars) for waves in (_POTENTIALS, _TABLES)]
+    missing = min(lacking, key=len)
+    if missing:
+        raise PanelsimError(
+            "This hydrodynamic database is not whole",
+            got=f"{path} without {', '.join(sorted(missing))}",
+            remedy=remedy,
+        )
 
 
 def frequency_grid(length: float, highest: float = np.inf) -> FloatArray:
