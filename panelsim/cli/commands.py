@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import shlex
 import sys
 import time
@@ -51,6 +52,8 @@ def call() -> int:
         code: int | None = app(standalone_mode=False)
     except PanelsimError as error:
         return _refuse(str(error))
+    except typer.BadParameter as error:
+        return _refuse(_bad_value(error))
     except typer.TyperException as error:
         return _refuse(error.format_message())
     except OSError as error:
@@ -66,6 +69,16 @@ def call() -> int:
 def _refuse(message: str) -> int:
     err.print(f"error: {message}")
     return EXIT_BAD_INPUT
+
+
+def _bad_value(error: typer.BadParameter) -> str:
+    """The parser's words on the value of an option, in the form of all others where it is no number."""
+    message = error.format_message()
+    found = re.fullmatch(r"Invalid value for '(.*)': '(.*)' is not a valid (float|integer)\.", message)
+    if not found:
+        return message
+    allowed = "a number" if found[3] == "float" else "a whole number"
+    return str(PanelsimError(f"{found[1]} is not {allowed}", got=f'"{found[2]}"', allowed=allowed))
 
 
 def _version(wanted: bool) -> None:

@@ -82,7 +82,9 @@ class HydroDatabase:
         """
         require_ship(ship)
         if method not in METHODS:
-            raise PanelsimError("This method is not known", got=repr(method)[:60], allowed=" | ".join(METHODS))
+            raise PanelsimError(
+                "This method is not known", got=repr(method)[:60], allowed=" | ".join(METHODS)
+            )
         solved = _panelled_for_solution(ship)
         _require_same_flotation(ship, solved)
         if method == "strip":

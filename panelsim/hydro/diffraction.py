@@ -150,7 +150,11 @@ def _components(frequency: FloatArray, wave_heading: FloatArray) -> tuple[FloatA
             got=f"{omega[~possible][0]:g}",
             allowed="more than 0 rad/s",
         )
-    if omega.ndim != 1 or heading.shape not in ((), (1,), omega.shape) and omega.shape != (1,):
+    if (
+        omega.ndim > 1
+        or heading.ndim > 1
+        or not (1 in (omega.size, heading.size) or omega.size == heading.size)
+    ):
         raise PanelsimError(
             "Wave frequencies and headings are not two rows of one length",
             got=f"shapes {omega.shape} and {heading.shape}",

@@ -10,7 +10,8 @@ from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq, minimize_scalar
 
 from panelsim.conventions import FloatArray
-from panelsim.errors import PanelsimError
+from panelsim.errors import PanelsimError, require_kind
+from panelsim.seaway.checks import real_numbers, require_number
 
 SMALL_HEEL = 1e-3  # rad
 ROUNDING = 1e-9  # of the largest arm: an arm below this is none
@@ -57,11 +58,13 @@ class RightingArms:
         Raises PanelsimError for heels that the curve does not reach, or that are not in order.
         """
         low, high = float(self.heel[0]), float(self.heel[-1])
-        if not low <= lower <= upper <= high:
+        for name, heel in (("lower", lower), ("upper", upper)):
+            require_number(f"{name} heel of the area", heel, "rad", low=low, high=high)
+        if lower > upper:
             raise PanelsimError(
-                "The righting arms do not reach over the area asked for",
+                "The heels of the area are not in order",
                 got=f"from {lower:g} to {upper:g} rad",
-                allowed=f"two heels in order, {low:g} to {high:g} rad",
+                allowed="the lower one first",
             )
         return float(PchipInterpolator(self.heel, self.arm).integrate(lower, upper))
 
@@ -89,11 +92,13 @@ def curve_of(afloat: Afloat, heel: ArrayLike, water: str) -> RightingArms:
     )
 
 
+def require_choice_of_trim(free_trim: object) -> None:
+    """Raise PanelsimError unless it is True or False: a word, such as "no", would count as True."""
+    require_kind("choice of free_trim", free_trim, bool | np.bool_, "True or False")
+
+
 def _checked_heels(heel: ArrayLike) -> FloatArray:
-    try:
-        angles = np.array(heel, dtype=float)
-    except (TypeError, ValueError):
-        raise PanelsimError("The heel angles are not numbers", got=repr(heel)[:60]) from None
+    angles = real_numbers("row of heel angles", heel)
     listed = angles.ndim == 1 and len(angles) >= 2 and bool(np.isfinite(angles).all())
     if not listed or (np.diff(angles) <= 0.0).any() or np.abs(angles).max() > np.pi + ON_HALF_A_TURN:
         raise PanelsimError(
