@@ -204,7 +204,7 @@ def test_what_only_the_files_of_a_case_tell_apart_is_refused_too(
     assert call("run", case_file, *change, "--force")[0] == 0
     dataset = database.dataset.copy()
     dataset["radiation_damping"] = dataset["radiation_damping"] * 1.0001
-    HydroDatabase(dataset).save(tmp_path / "coefficients.nc")
+    HydroDatabase(dataset).save(tmp_path / "coefficients.nc", overwrite=True)
     before = contents(tmp_path / "run")
     code, _, err = call("run", case_file, *change, "--resume")
     assert code == 2 and "its set of coefficients is another" in err
@@ -222,3 +222,18 @@ def test_a_folder_without_a_run_is_refused(call: Call, case_file: Path, tmp_path
     code, _, err = call("run", case_file, "--out", "cut", "--resume")
     assert code == 2 and "damaged" in err
     assert contents(tmp_path / "cut") == {"history.nc": b"no history"}
+
+
+def test_a_run_longer_than_the_case_is_refused_before_it_goes_on(
+    call: Call, case_file: Path, tmp_path: Path
+) -> None:
+    """The run has 12 s after its ramp; one as long as the case, to the step, is not too long."""
+    assert call("run", case_file, "--out", "run")[0] == 0
+    before = contents(tmp_path / "run")
+    code, out, err = call("run", case_file, "--out", "run", "--resume", "--set", "run.duration=11.6")
+    assert (code, out) == (2, "")
+    assert (
+        "longer than the case.\n  got: 12 s after the ramp\n  allowed: at most run.duration = 11.6 s" in err
+    )
+    assert contents(tmp_path / "run") == before
+    assert begun_run(Case.load(case_file), tmp_path / "run").time[-1] == pytest.approx(16.0)

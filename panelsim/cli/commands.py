@@ -2,7 +2,6 @@
 
 import json
 import math
-import re
 import shlex
 import sys
 import time
@@ -11,6 +10,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from pydantic import ValidationError
 
 import panelsim
 from panelsim.case import Case
@@ -45,6 +45,8 @@ app = typer.Typer(
 )
 app.command()(decay)
 
+_NUMBERS = {"float_parsing": "a number", "int_parsing": "a whole number"}
+
 
 def call() -> int:
     """Call the command that the arguments of the program name; returns the exit code."""
@@ -72,13 +74,14 @@ def _refuse(message: str) -> int:
 
 
 def _bad_value(error: typer.BadParameter) -> str:
-    """The parser's words on the value of an option, in the form of all others where it is no number."""
-    message = error.format_message()
-    found = re.fullmatch(r"Invalid value for '(.*)': '(.*)' is not a valid (float|integer)\.", message)
-    if not found:
+    """The parser's words on the value of an option; ours for one that is no number."""
+    message, cause = error.format_message(), error.__cause__
+    faults = cause.errors() if isinstance(cause, ValidationError) else []
+    allowed = _NUMBERS.get(faults[0]["type"]) if len(faults) == 1 else None
+    if allowed is None:
         return message
-    allowed = "a number" if found[3] == "float" else "a whole number"
-    return str(PanelsimError(f"{found[1]} is not {allowed}", got=f'"{found[2]}"', allowed=allowed))
+    what = message.partition(": ")[0]  # Invalid value for '--option'
+    return str(PanelsimError(what, got=f'"{faults[0]["input"]}"', allowed=allowed))
 
 
 def _version(wanted: bool) -> None:

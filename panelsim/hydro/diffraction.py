@@ -150,11 +150,7 @@ def _components(frequency: FloatArray, wave_heading: FloatArray) -> tuple[FloatA
             got=f"{omega[~possible][0]:g}",
             allowed="more than 0 rad/s",
         )
-    if (
-        omega.ndim > 1
-        or heading.ndim > 1
-        or not (1 in (omega.size, heading.size) or omega.size == heading.size)
-    ):
+    if max(omega.ndim, heading.ndim) > 1 or len({omega.size, heading.size} - {1}) > 1:
         raise PanelsimError(
             "Wave frequencies and headings are not two rows of one length",
             got=f"shapes {omega.shape} and {heading.shape}",

@@ -69,8 +69,8 @@ def radiation_at_speed(
 ) -> RadiationAtSpeed:
     """Coefficients at signed frequencies of encounter (M,) [rad/s], 0 allowed, and a speed [m/s].
 
-    With a `transom`, its end terms too. Raises PanelsimError for arguments of another kind, a frequency that is
-    not finite and a speed that no ship has.
+    With a `transom`, its end terms too. Raises PanelsimError for arguments of another kind, a frequency
+    that is not finite and a speed that no ship has.
     """
     require_kind("database", database, HydroDatabase, A_DATABASE)
     require_kind("transom", transom, Transom | None, A_TRANSOM)

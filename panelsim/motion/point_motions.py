@@ -63,8 +63,8 @@ def point_motions(history: History, point: ArrayLike) -> xr.Dataset:
 def with_points(history: History, points: Mapping[str, ArrayLike]) -> History:
     """The history with the motions of points by name, (3,) [m] in hull axes, as groups `points/NAME`.
 
-    Points that it has already stay, but for those given anew. Raises PanelsimError for what is no history, and
-    as `points_of_ship`.
+    Points that it has already stay, but for those given anew. Raises PanelsimError for what is no history,
+    and as `points_of_ship`.
     """
     require_kind("history", history, History, _A_HISTORY)
     places = points_of_ship(points, history.loading["center_of_gravity"], history.mesh_vertices)
