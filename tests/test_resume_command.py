@@ -161,8 +161,9 @@ def test_a_finished_run_is_made_longer(call: Call, case_file: Path) -> None:
     assert call("run", case_file, "--set", "run.duration=20", "--resume")[0] == 0
     assert History.load(folder / "history.nc").same_bits(whole)
     before = contents(folder)
-    code, _, err = call("run", case_file, "--resume")
-    assert code == 2 and "is longer than the run" in err and "24 s" in err and "16 s" in err
+    code, out, err = call("run", case_file, "--resume")
+    assert (code, out) == (2, "")
+    assert "longer than the case.\n  got: 20 s after the ramp\n  allowed: at most run.duration = 12 s" in err
     assert contents(folder) == before
 
 
@@ -222,18 +223,3 @@ def test_a_folder_without_a_run_is_refused(call: Call, case_file: Path, tmp_path
     code, _, err = call("run", case_file, "--out", "cut", "--resume")
     assert code == 2 and "damaged" in err
     assert contents(tmp_path / "cut") == {"history.nc": b"no history"}
-
-
-def test_a_run_longer_than_the_case_is_refused_before_it_goes_on(
-    call: Call, case_file: Path, tmp_path: Path
-) -> None:
-    """The run has 12 s after its ramp; one as long as the case, to the step, is not too long."""
-    assert call("run", case_file, "--out", "run")[0] == 0
-    before = contents(tmp_path / "run")
-    code, out, err = call("run", case_file, "--out", "run", "--resume", "--set", "run.duration=11.6")
-    assert (code, out) == (2, "")
-    assert (
-        "longer than the case.\n  got: 12 s after the ramp\n  allowed: at most run.duration = 11.6 s" in err
-    )
-    assert contents(tmp_path / "run") == before
-    assert begun_run(Case.load(case_file), tmp_path / "run").time[-1] == pytest.approx(16.0)
