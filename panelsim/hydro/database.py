@@ -15,6 +15,7 @@ from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.hull.refine import subdivided
 from panelsim.hydro.bem import Progress, highest_resolved_frequency, solve_radiation
 from panelsim.hydro.conditioning import require_physical
+from panelsim.hydro.database_file import FORMAT, POTENTIALS, TABLES, read_database_file
 from panelsim.hydro.memory import MemoryFunctions, memory_functions
 from panelsim.hydro.memory_states import MemoryStates, memory_states
 from panelsim.hydro.strip.database import highest_strip_frequency, solve_strips
@@ -22,7 +23,6 @@ from panelsim.hydro.strip.mesh_sections import sections_of_mesh
 from panelsim.ship.bundled import default_panel_area
 from panelsim.ship.ship import Ship, require_ship
 
-FORMAT = "panelsim hydrodynamic database 1"
 _CONVENTIONS = {
     "axes": "ship axes: origin at the centre of gravity, x forward, y to port, z up",
     "time_factor": "exp(+i omega t)",
@@ -45,9 +45,6 @@ _STRIPS = 21
 
 METHODS = ("bem", "strip")
 
-_COEFFICIENTS = {"added_mass", "radiation_damping", "added_mass_infinite"}
-_POTENTIALS = {"potential_real", "potential_imag", "potential_infinite", "panel_corners"}
-_TABLES = {"diffraction_real", "diffraction_imag"}
 _PREFIX = "ship_"
 # How far a ship may differ from the one the database was made for. The longitudinal centre of gravity of a
 # ship that floats at a stated draft moves with its panelling, by centimetres on 100 m.
@@ -129,24 +126,7 @@ class HydroDatabase:
 
         Raises PanelsimError for a missing, damaged or foreign file, and for coefficients that no body has.
         """
-        path = as_path(path)
-        if not path.is_file():
-            raise PanelsimError(
-                "There is no hydrodynamic database here",
-                got=path,
-                remedy="compute one with `panelsim hydro NAME -o FILE.nc`",
-            )
-        try:
-            with xr.open_dataset(path, engine="h5netcdf") as stored:
-                dataset = stored.load()
-        except (OSError, ValueError, KeyError, RuntimeError) as error:
-            raise PanelsimError(
-                "This hydrodynamic database cannot be read: it is damaged, cut short or not NetCDF-4",
-                got=f"{path} ({error})",
-                remedy="compute it again with `panelsim hydro NAME -o FILE.nc`",
-            ) from error
-        _require_whole(path, dataset)
-        database = cls(dataset)
+        database = cls(read_database_file(as_path(path)))
         require_physical(
             database.frequencies, database.added_mass, database.radiation_damping, database.half_breadth
         )
@@ -202,7 +182,7 @@ class HydroDatabase:
     @property
     def has_potentials(self) -> bool:
         """True with radiation potentials, from which diffraction at any speed and heading follows."""
-        return set(self.dataset.data_vars) >= _POTENTIALS
+        return set(self.dataset.data_vars) >= POTENTIALS
 
     @cached_property
     def wave_frequencies(self) -> FloatArray:
@@ -227,7 +207,7 @@ class HydroDatabase:
 
     @property
     def _tables(self) -> xr.Dataset:
-        if not set(self.dataset.data_vars) >= _TABLES:
+        if not set(self.dataset.data_vars) >= TABLES:
             raise PanelsimError(
                 "This database holds no diffraction tables",
                 remedy="its potentials give diffraction at any frequency and heading: diffraction_load",
@@ -312,26 +292,6 @@ class HydroDatabase:
                 got="; ".join(differences),
                 remedy="compute one for this ship with `panelsim hydro NAME -o FILE.nc`",
             )
-
-
-def _require_whole(path: Path, dataset: xr.Dataset) -> None:
-    """Raise PanelsimError for a dataset of another format, or one that lacks variables."""
-    remedy = "compute one with `panelsim hydro NAME -o FILE.nc`"
-    if dataset.attrs.get("format") != FORMAT:
-        raise PanelsimError(
-            "This file is no hydrodynamic database of panelsim",
-            got=f"{path}, format {dataset.attrs.get('format')!r}",
-            allowed=repr(FORMAT),
-            remedy=remedy,
-        )
-    lacking = [_COEFFICIENTS.union(waves).difference(dataset.data_vars) for waves in (_POTENTIALS, _TABLES)]
-    missing = min(lacking, key=len)
-    if missing:
-        raise PanelsimError(
-            "This hydrodynamic database is not whole",
-            got=f"{path} without {', '.join(sorted(missing))}",
-            remedy=remedy,
-        )
 
 
 def frequency_grid(length: float, highest: float = np.inf) -> FloatArray:

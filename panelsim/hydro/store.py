@@ -8,7 +8,8 @@ from pathlib import Path
 
 from panelsim.errors import PanelsimError
 from panelsim.hull.form import bundled_hull_names, hull_folder
-from panelsim.hydro.database import FORMAT, HydroDatabase, Progress
+from panelsim.hydro.database import HydroDatabase, Progress
+from panelsim.hydro.database_file import FORMAT
 from panelsim.ship.ship import Ship, require_ship
 
 STORED_NAME = "hydro.nc"

@@ -11,7 +11,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError, require_kind
-from panelsim.seaway.checks import real_numbers, require_number
+from panelsim.seaway.checks import is_number, real_numbers
 
 SMALL_HEEL = 1e-3  # rad
 ROUNDING = 1e-9  # of the largest arm: an arm below this is none
@@ -58,13 +58,12 @@ class RightingArms:
         Raises PanelsimError for heels that the curve does not reach, or that are not in order.
         """
         low, high = float(self.heel[0]), float(self.heel[-1])
-        for name, heel in (("lower", lower), ("upper", upper)):
-            require_number(f"{name} heel of the area", heel, "rad", low=low, high=high)
-        if lower > upper:
+        in_order = is_number(lower) and is_number(upper) and low <= lower <= upper <= high
+        if not in_order:
             raise PanelsimError(
-                "The heels of the area are not in order",
-                got=f"from {lower:g} to {upper:g} rad",
-                allowed="the lower one first",
+                "The righting arms do not reach over the area asked for",
+                got=f"from {lower} to {upper} rad",
+                allowed=f"two heels in order, {low:g} to {high:g} rad",
             )
         return float(PchipInterpolator(self.heel, self.arm).integrate(lower, upper))
 
