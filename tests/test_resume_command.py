@@ -164,6 +164,8 @@ def test_a_finished_run_is_made_longer(call: Call, case_file: Path) -> None:
     code, out, err = call("run", case_file, "--resume")
     assert (code, out) == (2, "")
     assert "longer than the case.\n  got: 20 s after the ramp\n  allowed: at most run.duration = 12 s" in err
+    with pytest.raises(PanelsimError, match="longer than the case"):  # by one step
+        begun_run(Case.load(case_file, ["run.duration=19.6"]), folder)
     assert contents(folder) == before
 
 
