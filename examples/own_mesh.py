@@ -99,7 +99,7 @@ def main(folder: Path) -> History:
     print(check_mesh(mesh, wave_length=LENGTH).summary())
     ship = load(mesh)
     database = HydroDatabase.compute(ship)  # boundary elements on this mesh, some ten seconds
-    database.save(folder / "hydro.nc")
+    database.save(folder / "hydro.nc", overwrite=True)
     history = run(ship, database)
     history.save(folder / "history.nc", overwrite=True)
     motions = statistics(history).motions

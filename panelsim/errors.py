@@ -1,5 +1,7 @@
 """The one exception of panelsim: what is wrong, what was got, what is allowed, what to do."""
 
+from types import UnionType
+
 
 class PanelsimError(Exception):
     """Bad input, told in full sentences; the command line prints it and exits with 2.
@@ -28,3 +30,9 @@ class PanelsimError(Exception):
             if part is not None:
                 lines.append(f"  {label}: {part}")
         super().__init__("\n".join(lines))
+
+
+def require_kind(name: str, value: object, kind: type | UnionType, allowed: str) -> None:
+    """Raise PanelsimError, with `allowed` in words, for a value that is not an instance of `kind`."""
+    if not isinstance(value, kind):
+        raise PanelsimError(f"The {name} is of another kind", got=repr(value)[:60], allowed=allowed)

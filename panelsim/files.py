@@ -5,7 +5,21 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from panelsim.errors import PanelsimError
+from panelsim.errors import PanelsimError, require_kind
+
+
+def as_path(path: str | Path) -> Path:
+    """The path of a file; PanelsimError for what is no name of one."""
+    require_kind("name of the file", path, str | os.PathLike, "a text or a Path")
+    return Path(path)
+
+
+def require_new(path: Path, what: str, *, overwrite: bool) -> None:
+    """Raise PanelsimError where `what` would overwrite a file and may not."""
+    if path.exists() and not overwrite:
+        raise PanelsimError(
+            f"The {what} would overwrite a file", got=path, remedy="give another name or overwrite=True"
+        )
 
 
 @contextmanager

@@ -589,7 +589,9 @@ def test_small_ships_weigh_kilograms_and_points_lie_forward_or_aft(call: Call) -
 def test_hydro_refuses_before_it_computes(call: Call, tmp_path: Path) -> None:
     (tmp_path / "there.nc").write_text("kept")
     refused(call("hydro", "halifax", "-o", tmp_path / "there.nc"), "exists already", "--force")
-    refused(call("hydro", "halifax", "-o", tmp_path), "is a folder")
+    refused(call("hydro", "halifax", "-o", tmp_path), "a file name in .nc")
+    (tmp_path / "folder.nc").mkdir()
+    refused(call("hydro", "halifax", "-o", tmp_path / "folder.nc"), "is a folder")
     refused(call("hydro", "halifax", "-o", tmp_path / "there.nc" / "x.nc"), "cannot be written")
     refused(call("hydro", "halifax", "-o", tmp_path / "new.nc", "--method", "slender"), "slender", "bem")
     assert (tmp_path / "there.nc").read_text() == "kept"

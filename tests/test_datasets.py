@@ -325,7 +325,7 @@ def test_files_that_are_no_netcdf_are_refused(tmp_path: Path) -> None:
     for name in ("short.nc", "text.nc", "missing.nc"):
         with pytest.raises(PanelsimError, match="cannot be read") as refusal:
             open_spectrum(tmp_path / name)
-        assert name in str(refusal.value)
+        assert name in str(refusal.value) and "backend" not in str(refusal.value)
     with pytest.raises(PanelsimError, match="which time"):
         write_whole(tmp_path / "plain.nc", bytes(several().to_netcdf(engine="h5netcdf")))
         open_spectrum(tmp_path / "plain.nc")

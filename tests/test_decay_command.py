@@ -169,6 +169,10 @@ def test_what_is_refused(
         "degrees.csv": "time [s],roll\n0,1\n",
         "both.csv": "time [s],roll [deg],roll [rad]\n0,1,1\n",
         "text.csv": "time [s],roll [deg]\n0,1\n1,starboard\n",
+        "nan.csv": "time [s],roll [deg]\n0,1\n1,nan\n2,1\n",
+        "ragged.csv": "time [s],roll [deg]\n0,1\n1,0,5\n",
+        "cut.csv": "time [s],roll [deg]\n0,1\n1,0\n2\n",
+        "back.csv": "time [s],roll [deg]\n0,1\n\n2,0\n1.5,1\n",
         "short.csv": "time [s],roll [deg]\n0,1\n1,0\n",
         "wrong_unit.csv": "time [s],roll [rad]\n" + "".join(f"{i},{20 * (-1) ** i}\n" for i in range(40)),
     }
@@ -179,6 +183,10 @@ def test_what_is_refused(
         (["degrees.csv"], "names of its columns"),
         (["both.csv"], "names of its columns"),
         (["text.csv"], "line 3 holds no time and roll"),
+        (["nan.csv"], "nan.csv, line 3 holds no time and roll"),
+        (["ragged.csv"], "line 3 has another number of columns"),
+        (["cut.csv"], "line 4 has another number of columns"),
+        (["back.csv"], "line 5: the time does not increase.\n  got: 1.5 s after 2 s"),
         (["short.csv"], "ten samples or more"),
         (["wrong_unit.csv"], "no angle in radians"),
         (["nothing.csv"], "no such file"),
@@ -187,6 +195,8 @@ def test_what_is_refused(
         (["short.csv", "--heel", "5"], "are for a case file"),
         ([case_file, "--heel", "0"], "heel, to either side, is out of range"),
         ([case_file, "--heel", "nan"], "heel, to either side, is out of range"),
+        ([case_file, "--heel", "-200"], "got: -200 deg\n  allowed: 0.1 to 60 deg"),
+        ([case_file, "--heel", "abc"], "'--heel'.\n  got: \"abc\"\n  allowed: a number"),
         ([case_file, "--out", tmp_path], "not empty"),
     ):
         code, _, err = call(*arguments)

@@ -220,7 +220,12 @@ def test_files_that_are_none_are_refused(call: Call, tmp_path: Path) -> None:
     ps.database_for(ps.load_ship("box")).save(tmp_path / "own.nc")
     code, _, err = call("hydro", "box", "--from", "own.nc", *AXES, "-o", "there.nc")
     assert code == 2 and "database of panelsim already" in err and '[hydrodynamics] file = "own.nc"' in err
-    for name, words in (("text.txt", "no database of a program"), ("text.nc", "cannot be read")):
+    whole = (tmp_path / "own.nc").read_bytes()
+    for name in ("cut.nc", "cut.h5"):
+        (tmp_path / name).write_bytes(whole[: len(whole) // 2])
+        code, out, err = call("hydro", "box", "--from", name, *AXES, "-o", "there.nc")
+        assert code == 2 and f"got: {name} (" in err and "cannot be read" in err and out == ""
+    for name, words in (("text.txt", "no database of a program"), ("text.nc", "got: text.nc what to do")):
         (tmp_path / name).write_text("text")
         code, _, err = call("hydro", "box", "--from", name, *AXES, "-o", "there.nc")
         assert code == 2 and words in err
@@ -324,3 +329,13 @@ def test_a_sea_shorter_than_the_mesh_resolves_is_refused_with_what_it_is_good_to
     if method == "bem":
         with pytest.raises(ps.PanelsimError, match="100 % of the energy"):
             ps.simulate(loaded.ship, loaded.seaway, speed=0.0, duration=2.0, time_step=0.1, database=database)
+
+
+def test_coefficients_are_written_to_nc_files_only(call: Call, tmp_path: Path) -> None:
+    """A slip of the name must not cost a case, even with --force."""
+    (tmp_path / "victim.toml").write_text("mine")
+    for name in ("victim.toml", "victim", "new.h5"):
+        code, _, err = call("hydro", "box", "-o", name, "--force")
+        assert code == 2 and f"got: {name} allowed: a file name in .nc" in err
+    assert (tmp_path / "victim.toml").read_text() == "mine"
+    assert [path.name for path in tmp_path.iterdir()] == ["victim.toml"]

@@ -72,7 +72,9 @@ def test_reads_back_what_was_computed_to_the_bit(database: HydroDatabase, tmp_pa
     again = HydroDatabase.load(path)
     assert again.dataset.identical(database.dataset)
     assert [p.name for p in path.parent.iterdir()] == ["hydro.nc"]
-    again.save(path)
+    with pytest.raises(PanelsimError, match="overwrite a file"):
+        again.save(path)
+    assert again.save(str(path), overwrite=True) == path
     assert HydroDatabase.load(path).dataset.identical(database.dataset)
 
 
@@ -112,9 +114,10 @@ def test_damaged_missing_and_foreign_files_are_refused(database: HydroDatabase, 
     xr.Dataset({"added_mass": ("x", np.zeros(3))}).to_netcdf(path, engine="h5netcdf")
     with pytest.raises(PanelsimError, match="no hydrodynamic database of panelsim"):
         HydroDatabase.load(path)
-    database.dataset.drop_vars("potential_real").to_netcdf(path, engine="h5netcdf")
-    with pytest.raises(PanelsimError, match="no hydrodynamic database of panelsim"):
-        HydroDatabase.load(path)
+    for missing in ("potential_real", "added_mass_infinite"):
+        database.dataset.drop_vars(missing).to_netcdf(path, engine="h5netcdf")
+        with pytest.raises(PanelsimError, match=rf"is not whole\.\n  got: .*hydro\.nc without {missing}\n"):
+            HydroDatabase.load(path)
 
 
 def test_failed_write_leaves_the_old_file(
@@ -128,7 +131,7 @@ def test_failed_write_leaves_the_old_file(
 
     monkeypatch.setattr(Path, "write_bytes", full_disk)
     with pytest.raises(PanelsimError, match="no space"):
-        database.save(path)
+        database.save(path, overwrite=True)
     assert path.read_bytes() == b"old"
     assert len(list(tmp_path.iterdir())) == 1
 

@@ -217,7 +217,9 @@ def test_heels_that_make_no_curve(heel: object) -> None:
         righting_arm(box_ship(), heel)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize(("lower", "upper"), [(0.0, 1.1), (-0.1, 0.5), (0.6, 0.5), (0.0, np.nan)])
+@pytest.mark.parametrize(
+    ("lower", "upper"), [(0.0, 1.1), (-0.1, 0.5), (0.6, 0.5), (0.0, np.nan), (None, 1), (0.0, "a")]
+)
 def test_areas_beyond_the_curve(lower: float, upper: float) -> None:
     found = righting_arm(box_ship(), [0.0, 0.5, 1.0])
     with pytest.raises(PanelsimError, match=r"(?s)do not reach.*two heels in order, 0 to 1 rad"):

@@ -67,11 +67,13 @@ def test_percent_of_critical() -> None:
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: RollDampingTerms(linear=-1.0), "linear roll damping is out of range"),
+        (lambda: RollDampingTerms(linear=-1.0), r"linear roll damping is out of range(.|\n)*negative term"),
+        (lambda: RollDampingTerms(cubic=np.inf), r"a finite number, 0 or more \[N m s3\]$"),
         (lambda: RollDampingTerms(cubic=np.nan), "cubic roll damping is out of range"),
         (lambda: RollDampingTerms.of_critical(5.0, 1.0, 1.0), "5 % is 0.05"),
         (lambda: RollDampingTerms.of_critical(0.05, 0.0, 1.0), "roll inertia is not positive"),
         (lambda: TERMS.equivalent(-0.1), "roll rate is negative"),
+        (lambda: TERMS.equivalent("fast"), "roll rate is not made of real numbers"),
         (lambda: TERMS.equivalent_gaussian(np.inf), "roll rate is negative or not finite"),
         (lambda: RollDampingTerms.fitted([5.0, 10.0, 20.0], [1.0, 2.0, 3.0], 1.0), "no angle in radians"),
         (lambda: RollDampingTerms.fitted([0.1, 0.1, 0.2], [1.0, 1.0, 2.0], 1.0), "three different"),

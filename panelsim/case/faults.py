@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
 
 from panelsim.case.schema import CaseFile
+from panelsim.case.section import KeyFault
 from panelsim.errors import PanelsimError
 
 TYPES = {
@@ -20,6 +22,8 @@ TYPES = {
     "model_type": "a table, { key = value, … }",
     "model_attributes_type": "a table, { key = value, … }",
     "list_type": "a list in brackets, […]",
+    "dict_type": "a table, { key = value, … }",
+    "bool_type": "true or false",
 }
 LIMITS = {"gt": "more than", "ge": "at least", "lt": "less than", "le": "at most"}
 
@@ -77,12 +81,22 @@ def _wrong(fault: Any) -> Fault:
         return Fault(f"{where} is missing")
     if kind == "value_error":
         message = fault["msg"].removeprefix("Value error, ")
-        return Fault(f"{where}: {message}" if where else message)
+        what = f"{where}: {message}" if where else message
+        error = fault["ctx"]["error"]
+        return (
+            Fault(what, error.got, error.allowed, error.remedy)
+            if isinstance(error, KeyFault)
+            else Fault(what)
+        )
     if kind in ("too_short", "too_long"):
         return Fault(
             f"{where} has the wrong length", f"{fault['ctx']['actual_length']}", _length(fault["ctx"])
         )
-    allowed = TYPES.get(kind) or _limit(fault.get("ctx", {})) or fault["msg"].removeprefix("Input should be ")
+    allowed = (
+        TYPES.get(kind)
+        or _limits(_path(fault), fault.get("ctx", {}))
+        or fault["msg"].removeprefix("Input should be ")
+    )
     comma = isinstance(value, str) and re.fullmatch(r"[+-]?\d+,\d+", value)
     remedy = "decimals are written with a point" if comma else None
     what = f"{where} is not {allowed}" if kind in TYPES else f"{where} is out of range"
@@ -91,9 +105,22 @@ def _wrong(fault: Any) -> Fault:
     return Fault(what, _shown(value), None if kind in TYPES else allowed, remedy)
 
 
-def _limit(context: dict[str, Any]) -> str | None:
-    """The limit that a number breaks."""
-    return next((f"{LIMITS[name]} {context[name]:g}" for name in LIMITS if name in context), None)
+def _limits(path: tuple[str, ...], context: dict[str, Any]) -> str | None:
+    """All limits of a number that breaks one of them; None for a fault of another kind."""
+    if not LIMITS.keys() & context.keys():
+        return None
+    *table, key = path
+    found = _limits_in(_model(table).model_fields.get(key)) or context
+    return ", ".join(f"{LIMITS[name]} {found[name]:g}" for name in LIMITS if name in found)
+
+
+def _limits_in(annotation: Any) -> dict[str, float]:
+    """The limits that an annotation of a number holds, by the names of `LIMITS`."""
+    found: dict[str, float] = {}
+    for part in (*getattr(annotation, "metadata", ()), *get_args(annotation)):
+        found |= {name: getattr(part, name) for name in LIMITS if hasattr(part, name)}
+        found |= _limits_in(part)
+    return found | (_limits_in(annotation.annotation) if isinstance(annotation, FieldInfo) else {})
 
 
 def _length(context: dict[str, Any]) -> str:

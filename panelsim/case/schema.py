@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, field_validator, model_validator
 
 from panelsim.case.seaway_schema import SeawaySection
-from panelsim.case.section import Degrees, Finite, NotNegative, Place, Positive, Section
+from panelsim.case.section import Degrees, Finite, KeyFault, NotNegative, Place, Positive, Section
 from panelsim.conventions import STANDARD_GRAVITY
 
 # A run keeps some 400 bytes a step.
@@ -77,17 +77,30 @@ class RunSection(Section):
     @model_validator(mode="after")
     def _inertia(self) -> "RunSection":
         if self.model == "linear" and self.inertia == "large":
-            raise ValueError(
-                'the linear model has the inertia of small angles: inertia = "linear", or leave it out'
+            raise KeyFault(
+                "the linear model has the inertia of small angles",
+                got='model = "linear" with inertia = "large"',
+                allowed='inertia = "linear", or none given',
+                remedy="leave run.inertia out",
             )
         return self
 
     @model_validator(mode="after")
     def _steps(self) -> "RunSection":
         if self.duration < self.time_step:
-            raise ValueError(f"the duration of {self.duration:g} s is shorter than one time_step")
+            raise KeyFault(
+                f"the duration of {self.duration:g} s is shorter than one time_step",
+                got=f"duration = {self.duration:g}, time_step = {self.time_step:g}",
+                allowed="a duration of one time step or more",
+                remedy="set a longer run.duration",
+            )
         if self.steps > MOST_STEPS:
-            raise ValueError(f"{self.steps} time steps are more than the {MOST_STEPS} that one run may have")
+            raise KeyFault(
+                f"{self.steps} time steps are more than the {MOST_STEPS} that one run may have",
+                got=f"ramp = {self.ramp:g}, duration = {self.duration:g}, time_step = {self.time_step:g}",
+                allowed=f"at most {MOST_STEPS} steps",
+                remedy="shorten run.duration, or set a longer run.time_step",
+            )
         return self
 
     @property
@@ -133,9 +146,21 @@ class RollDampingSection(Section):
         given = [name for keys in own.values() for name in keys if getattr(self, name) is not None]
         strange = [name for name in given if name not in wanted]
         if strange:
-            raise ValueError(f'{", ".join(strange)} has no meaning with method = "{self.method}"')
+            raise KeyFault(
+                f'{", ".join(strange)} has no meaning with method = "{self.method}"',
+                got=", ".join(f"{name} = {getattr(self, name):g}" for name in strange),
+                allowed=", ".join((*wanted, "linearised_at_deg")) if wanted else "no key of another method",
+                remedy=f"leave {', '.join(strange)} out, or set roll_damping.method to "
+                + " or ".join(f'"{method}"' for method, keys in own.items() if set(strange) & set(keys)),
+            )
         if wanted and not given:
-            raise ValueError(f'method = "{self.method}" needs {" or ".join(wanted)}')
+            raise KeyFault(
+                f'method = "{self.method}" needs {" or ".join(wanted)}',
+                got="none of them" if len(wanted) > 1 else f"no {wanted[0]}",
+                allowed="0 to 100 % of critical" if self.method == "percent" else "N m sⁿ, 0 or more",
+                remedy=f"set roll_damping.{wanted[0]}"
+                + (", for example to 5" if self.method == "percent" else ", for example to 1e7"),
+            )
         return self
 
 

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from panelsim.case.section import Degrees, Positive, Section
+from panelsim.case.section import Degrees, KeyFault, Positive, Section
 
 Frequency = Annotated[float, Field(ge=0.01, le=100)]  # rad/s: from far above any swell to ripples
 Period = Annotated[float, Field(ge=0.06, le=630)]  # s: the same span
@@ -186,7 +186,14 @@ class SeawaySection(Section):
             allowed |= self._keys_of(SPECTRA[self.spectrum], spectrum, given & own)
         foreign = sorted(given - allowed)
         if foreign:
-            raise ValueError(f"{self._name()} has no {', '.join(foreign)}")
+            keys = sorted({*allowed, *EVERYWHERE}) if self.kind != "calm" else ["kind alone"]
+            raise KeyFault(
+                f"{self._name()} has no {', '.join(foreign)}",
+                got=", ".join(f"{name} = {self._text(name)}" for name in foreign),
+                allowed=", ".join(keys),
+                remedy=f"leave {', '.join(foreign)} out, or choose another seaway.kind"
+                + (" or spectrum" if self.kind == "random" else ""),
+            )
         self._systems_fit()
         if self.files is not None and self.format != "ndbc":
             raise ValueError(f'a dataset of the format "{self.format}" is one file, not files')
@@ -203,6 +210,13 @@ class SeawaySection(Section):
     def _name(self) -> str:
         spectrum = f' with the spectrum "{self.spectrum}"' if self.kind == "random" else ""
         return f"a {self.kind} seaway{spectrum}"
+
+    def _text(self, name: str) -> str:
+        """The value of a key as the case file writes it, a table or list told as such."""
+        value = getattr(self, name)
+        if isinstance(value, str):
+            return f'"{value}"'
+        return f"{value:g}" if isinstance(value, float) else str(value) if isinstance(value, int) else "…"
 
     @staticmethod
     def _keys_of(ways: Ways, name: str, given: set[str]) -> set[str]:

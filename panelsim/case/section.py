@@ -11,6 +11,14 @@ Place = Annotated[list[Finite], Field(min_length=3, max_length=3)]  # m, in hull
 Degrees = Annotated[float, Field(ge=-360, le=360)]
 
 
+class KeyFault(ValueError):
+    """Keys of a table that do not go together, told with the parts of a PanelsimError."""
+
+    def __init__(self, what: str, *, got: str, allowed: str, remedy: str) -> None:
+        super().__init__(what)
+        self.got, self.allowed, self.remedy = got, allowed, remedy
+
+
 class Section(BaseModel):
     """A table of the case file: no key that it does not know, no text where a number belongs."""
 

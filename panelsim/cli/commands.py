@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from pydantic import ValidationError
 
 import panelsim
 from panelsim.case import Case
@@ -44,6 +45,8 @@ app = typer.Typer(
 )
 app.command()(decay)
 
+_NUMBERS = {"float_parsing": "a number", "int_parsing": "a whole number"}
+
 
 def call() -> int:
     """Call the command that the arguments of the program name; returns the exit code."""
@@ -51,6 +54,8 @@ def call() -> int:
         code: int | None = app(standalone_mode=False)
     except PanelsimError as error:
         return _refuse(str(error))
+    except typer.BadParameter as error:
+        return _refuse(_bad_value(error))
     except typer.TyperException as error:
         return _refuse(error.format_message())
     except OSError as error:
@@ -66,6 +71,17 @@ def call() -> int:
 def _refuse(message: str) -> int:
     err.print(f"error: {message}")
     return EXIT_BAD_INPUT
+
+
+def _bad_value(error: typer.BadParameter) -> str:
+    """The parser's words on the value of an option; ours for one that is no number."""
+    message, cause = error.format_message(), error.__cause__
+    faults = cause.errors() if isinstance(cause, ValidationError) else []
+    allowed = _NUMBERS.get(faults[0]["type"]) if len(faults) == 1 else None
+    if allowed is None:
+        return message
+    what = message.partition(": ")[0]  # Invalid value for '--option'
+    return str(PanelsimError(what, got=f'"{faults[0]["input"]}"', allowed=allowed))
 
 
 def _version(wanted: bool) -> None:

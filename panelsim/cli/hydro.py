@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from panelsim.cli.arguments import refuse_existing, ship_of
+from panelsim.cli.arguments import refuse_existing, require_suffix, ship_of
 from panelsim.cli.options import Force
 from panelsim.cli.respond import numbers
 from panelsim.cli.show import out, progress_bars, show_coverage
@@ -40,6 +40,7 @@ def hydro(
     force: Force = False,
 ) -> None:
     """Compute the coefficients of a ship, or read those of another program; store them."""
+    require_suffix(output, ".nc")
     refuse_existing(output, force)
     about: dict[str, Any] = {
         "forward": forward,
@@ -62,7 +63,7 @@ def hydro(
             database = HydroDatabase.compute(
                 ship, method or "bem", progress=track("hydrodynamic coefficients")
             )
-    database.save(output)
+    database.save(output, overwrite=force)
     out.print(f"Wrote {output}", soft_wrap=True)
     show_coverage(database)
 

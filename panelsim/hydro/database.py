@@ -10,19 +10,19 @@ from numpy.typing import NDArray
 
 from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
-from panelsim.files import write_whole
+from panelsim.files import as_path, require_new, write_whole
 from panelsim.hull.panel_mesh import PanelMesh
 from panelsim.hull.refine import subdivided
 from panelsim.hydro.bem import Progress, highest_resolved_frequency, solve_radiation
 from panelsim.hydro.conditioning import require_physical
+from panelsim.hydro.database_file import FORMAT, POTENTIALS, TABLES, read_database_file
 from panelsim.hydro.memory import MemoryFunctions, memory_functions
 from panelsim.hydro.memory_states import MemoryStates, memory_states
 from panelsim.hydro.strip.database import highest_strip_frequency, solve_strips
 from panelsim.hydro.strip.mesh_sections import sections_of_mesh
 from panelsim.ship.bundled import default_panel_area
-from panelsim.ship.ship import Ship
+from panelsim.ship.ship import Ship, require_ship
 
-FORMAT = "panelsim hydrodynamic database 1"
 _CONVENTIONS = {
     "axes": "ship axes: origin at the centre of gravity, x forward, y to port, z up",
     "time_factor": "exp(+i omega t)",
@@ -45,9 +45,6 @@ _STRIPS = 21
 
 METHODS = ("bem", "strip")
 
-_COEFFICIENTS = {"added_mass", "radiation_damping", "added_mass_infinite"}
-_POTENTIALS = {"potential_real", "potential_imag", "potential_infinite", "panel_corners"}
-_TABLES = {"diffraction_real", "diffraction_imag"}
 _PREFIX = "ship_"
 # How far a ship may differ from the one the database was made for. The longitudinal centre of gravity of a
 # ship that floats at a stated draft moves with its panelling, by centimetres on 100 m.
@@ -77,11 +74,14 @@ class HydroDatabase:
         panels (`panelsim.hydro.strip.assembly`): for a slender hull, without surge, and with coefficients by
         section. A ship with a hull form is panelled anew, as finely as the frequencies need; one without is
         solved on its own mesh, for "bem" with coarse panels split in four. `progress(done, total)` counts
-        frequencies or sections. Raises PanelsimError for another method, for a solution that is not physical
-        and for sections that cannot be cut.
+        frequencies or sections. Raises PanelsimError for what is no ship, for another method, for a solution
+        that is not physical and for sections that cannot be cut.
         """
+        require_ship(ship)
         if method not in METHODS:
-            raise PanelsimError("This method is not known", got=method, allowed=" | ".join(METHODS))
+            raise PanelsimError(
+                "This method is not known", got=repr(method)[:60], allowed=" | ".join(METHODS)
+            )
         solved = _panelled_for_solution(ship)
         _require_same_flotation(ship, solved)
         if method == "strip":
@@ -126,42 +126,23 @@ class HydroDatabase:
 
         Raises PanelsimError for a missing, damaged or foreign file, and for coefficients that no body has.
         """
-        path = Path(path)
-        if not path.is_file():
-            raise PanelsimError(
-                "There is no hydrodynamic database here",
-                got=path,
-                remedy="compute one with `panelsim hydro NAME -o FILE.nc`",
-            )
-        try:
-            with xr.open_dataset(path, engine="h5netcdf") as stored:
-                dataset = stored.load()
-        except (OSError, ValueError, KeyError, RuntimeError) as error:
-            raise PanelsimError(
-                "This hydrodynamic database cannot be read: it is damaged, cut short or not NetCDF-4",
-                got=f"{path} ({error})",
-                remedy="compute it again with `panelsim hydro NAME -o FILE.nc`",
-            ) from error
-        held = set(dataset.data_vars)
-        whole = held >= _COEFFICIENTS and (held >= _POTENTIALS or held >= _TABLES)
-        if dataset.attrs.get("format") != FORMAT or not whole:
-            raise PanelsimError(
-                "This file is no hydrodynamic database of panelsim",
-                got=f"{path}, format {dataset.attrs.get('format')!r}",
-                allowed=repr(FORMAT),
-                remedy="compute one with `panelsim hydro NAME -o FILE.nc`",
-            )
-        database = cls(dataset)
+        database = cls(read_database_file(as_path(path)))
         require_physical(
             database.frequencies, database.added_mass, database.radiation_damping, database.half_breadth
         )
         return database
 
-    def save(self, path: str | Path) -> None:
-        """Write NetCDF-4, the potentials compressed in single precision, beside the target and renamed."""
+    def save(self, path: str | Path, *, overwrite: bool = False) -> Path:
+        """Write NetCDF-4, the potentials compressed in single precision, beside the target and renamed.
+
+        An existing file is refused unless `overwrite`.
+        """
+        path = as_path(path)
+        require_new(path, "database", overwrite=overwrite)
         compressed = {"dtype": "float32", "compression": "gzip", "compression_opts": 6, "shuffle": True}
         encoding = {name: compressed for name in self.dataset.data_vars if str(name).startswith("potential")}
-        write_whole(Path(path), bytes(self.dataset.to_netcdf(engine="h5netcdf", encoding=encoding)))
+        write_whole(path, bytes(self.dataset.to_netcdf(engine="h5netcdf", encoding=encoding)))
+        return path
 
     @cached_property
     def frequencies(self) -> FloatArray:
@@ -201,7 +182,7 @@ class HydroDatabase:
     @property
     def has_potentials(self) -> bool:
         """True with radiation potentials, from which diffraction at any speed and heading follows."""
-        return set(self.dataset.data_vars) >= _POTENTIALS
+        return set(self.dataset.data_vars) >= POTENTIALS
 
     @cached_property
     def wave_frequencies(self) -> FloatArray:
@@ -226,7 +207,7 @@ class HydroDatabase:
 
     @property
     def _tables(self) -> xr.Dataset:
-        if not set(self.dataset.data_vars) >= _TABLES:
+        if not set(self.dataset.data_vars) >= TABLES:
             raise PanelsimError(
                 "This database holds no diffraction tables",
                 remedy="its potentials give diffraction at any frequency and heading: diffraction_load",

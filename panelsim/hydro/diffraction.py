@@ -10,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from panelsim.conventions import ComplexArray, Dof, FloatArray
-from panelsim.errors import PanelsimError
+from panelsim.errors import PanelsimError, require_kind
+from panelsim.hydro.arguments import A_DATABASE, A_TRANSOM, require_speed_ahead
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.interpolation import at_frequency
 from panelsim.hydro.tabulated_diffraction import tabulated_momentum
 from panelsim.hydro.transom import Transom
+from panelsim.seaway.checks import real_numbers, require_angles
 from panelsim.seaway.dispersion import encounter_frequency, wavenumber
 
 _GAUSS = np.array([-1.0, 1.0]) / np.sqrt(3.0)
@@ -34,10 +36,13 @@ def diffraction_load(
     `frequency` ω (M,) [rad/s] more than 0, `wave_heading` β (M,) [rad], 0 following, π head; `speed` [m/s].
     Complex amplitude with exp(+iω_e t), ω_e signed, on the ship's mean position in ship axes, the phase that
     of a crest at the centre of gravity at t = 0. With a `transom`, less U times the momentum per metre that
-    leaves there, the end terms of Salvesen, Tuck and Faltinsen (1970). Raises PanelsimError for a frequency
-    not above 0 and, without potentials, for waves that the tables of the database do not cover.
+    leaves there, the end terms of Salvesen, Tuck and Faltinsen (1970). Raises PanelsimError for arguments of
+    another kind or out of range and, without potentials, for waves that the tables do not cover.
     """
-    omega, heading = _components(frequency, wave_heading)
+    require_kind("database", database, HydroDatabase, A_DATABASE)
+    require_kind("transom", transom, Transom | None, A_TRANSOM)
+    require_speed_ahead(speed)
+    omega, heading = _components(frequency, require_angles("wave heading", wave_heading))
     momentum = diffraction_momentum(database, omega, heading, speed)
     encounter = encounter_frequency(omega, heading, speed, database.gravity)
     load = -1j * encounter[:, None] * momentum
@@ -136,11 +141,20 @@ def _gauss_points(corners: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _components(frequency: FloatArray, wave_heading: FloatArray) -> tuple[FloatArray, FloatArray]:
-    omega, heading = np.broadcast_arrays(
-        np.atleast_1d(frequency).astype(float), np.asarray(wave_heading, float)
-    )
-    if not (omega > 0.0).all():
+    omega = np.atleast_1d(real_numbers("wave frequency", frequency))
+    heading = real_numbers("wave heading", wave_heading)
+    possible = (omega > 0.0) & (omega < np.inf)
+    if not possible.all():
         raise PanelsimError(
-            "Wave frequencies must be more than 0", got=omega.min(), allowed="more than 0 rad/s"
+            "Wave frequencies must be more than 0 and finite",
+            got=f"{omega[~possible][0]:g}",
+            allowed="more than 0 rad/s",
         )
+    if max(omega.ndim, heading.ndim) > 1 or len({omega.size, heading.size} - {1}) > 1:
+        raise PanelsimError(
+            "Wave frequencies and headings are not two rows of one length",
+            got=f"shapes {omega.shape} and {heading.shape}",
+            allowed="one heading for each frequency, or one for all",
+        )
+    omega, heading = np.broadcast_arrays(omega, heading)
     return omega, heading

@@ -7,13 +7,14 @@ steady momentum for ever.
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from panelsim.conventions import DOF_NAMES, FloatArray
-from panelsim.errors import PanelsimError
+from panelsim.errors import PanelsimError, require_kind
+from panelsim.hydro.arguments import A_DATABASE
 from panelsim.hydro.conditioning import pair_scale
 from panelsim.hydro.retardation import fourier_integral, tapered_momentum_kernel
 
@@ -27,6 +28,7 @@ _REBUILT_WITHIN = 0.03  # of the peak
 _ROUGH = 0.1  # change of damping from one frequency to the next that no single hull makes, of its peak
 
 
+@runtime_checkable
 class RadiationCoefficients(Protocol):
     """What memory is made of: a `HydroDatabase`, or the section at a transom.
 
@@ -97,8 +99,9 @@ def memory_functions(database: RadiationCoefficients) -> MemoryFunctions:
     """Kernels from the radiation damping of a database, which keeps them as `HydroDatabase.memory`.
 
     The memory is 32 s for a frigate of 120 m. Raises PanelsimError when A and B made again from R are more
-    than 3 % of their peaks away from those of the database.
+    than 3 % of their peaks away from those of the database, and for what is no database.
     """
+    require_kind("database", database, RadiationCoefficients, A_DATABASE)
     frequencies = database.frequencies
     size = max(database.length / _REFERENCE_LENGTH, 2.0 * database.half_breadth / _REFERENCE_BEAM)
     memory_length = _REFERENCE_MEMORY * np.sqrt(size)

@@ -17,7 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from panelsim.conventions import ComplexArray, Dof, FloatArray
-from panelsim.errors import PanelsimError
+from panelsim.errors import PanelsimError, require_kind
+from panelsim.hydro.arguments import A_DATABASE, A_TRANSOM, finite_row, require_speed_ahead
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.interpolation import complex_inertia
 from panelsim.hydro.transom import Transom
@@ -68,14 +69,13 @@ def radiation_at_speed(
 ) -> RadiationAtSpeed:
     """Coefficients at signed frequencies of encounter (M,) [rad/s], 0 allowed, and a speed [m/s].
 
-    With a `transom`, its end terms too. Raises PanelsimError for a frequency that is not finite and a speed
-    that is negative or not finite.
+    With a `transom`, its end terms too. Raises PanelsimError for arguments of another kind, a frequency
+    that is not finite and a speed that no ship has.
     """
-    omega = np.array(encounter, dtype=np.float64, ndmin=1)
-    if omega.ndim != 1 or not np.isfinite(omega).all():
-        raise PanelsimError(
-            "Frequencies of encounter are not a row of finite numbers", got=omega.tolist(), allowed="rad/s"
-        )
+    require_kind("database", database, HydroDatabase, A_DATABASE)
+    require_kind("transom", transom, Transom | None, A_TRANSOM)
+    require_speed_ahead(speed)
+    omega = finite_row("frequencies of encounter", encounter, "rad/s")
     coupling = speed_coupling(speed)
     magnitude = np.abs(omega)
     mass, rate = _real_parts(complex_inertia(database, magnitude), magnitude)

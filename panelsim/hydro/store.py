@@ -8,8 +8,9 @@ from pathlib import Path
 
 from panelsim.errors import PanelsimError
 from panelsim.hull.form import bundled_hull_names, hull_folder
-from panelsim.hydro.database import FORMAT, HydroDatabase, Progress
-from panelsim.ship.ship import Ship
+from panelsim.hydro.database import HydroDatabase, Progress
+from panelsim.hydro.database_file import FORMAT
+from panelsim.ship.ship import Ship, require_ship
 
 STORED_NAME = "hydro.nc"
 
@@ -26,15 +27,16 @@ def database_for(ship: Ship, progress: Progress | None = None, method: str = "be
     """The database of a ship: bundled with its hull, cached from an earlier run, or computed and cached.
 
     `method` as in `HydroDatabase.compute`; those that are bundled are by "bem". `progress(done, total)` is
-    called only while one is computed.
+    called only while one is computed. Raises PanelsimError for what is no ship, and as `compute` does.
     """
+    require_ship(ship)
     stored = stored_database(ship, method)
     if stored is not None:
         return stored
     database = HydroDatabase.compute(ship, method, progress=progress)
     # A cache that cannot be written costs the next run its time, and this one nothing.
     with contextlib.suppress(PanelsimError):
-        database.save(_cached_at(ship, method))
+        database.save(_cached_at(ship, method), overwrite=True)
     return database
 
 

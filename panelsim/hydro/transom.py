@@ -13,6 +13,7 @@ import numpy as np
 
 from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.hydro.arguments import finite_row
 from panelsim.hydro.conditioning import require_physical
 from panelsim.hydro.interpolation import at_frequency
 from panelsim.hydro.strip.assembly import lowest_strip_frequency, section_motion
@@ -25,7 +26,7 @@ from panelsim.hydro.strip.sections import Section
 from panelsim.hydro.strip.solution import SectionSolution
 from panelsim.hydro.transom_memory import TransomMemory, transom_memory
 from panelsim.seaway.dispersion import wavenumber
-from panelsim.ship.ship import Ship
+from panelsim.ship.ship import Ship, require_ship
 
 TRANSOM_NOTE = (
     "Radiation and diffraction have the end terms of the transom (Salvesen, Tuck and Faltinsen 1970)."
@@ -56,9 +57,11 @@ class Transom:
 
         `frequencies` (F,) [rad/s], ascending from 0: those of the database that it goes with. A shallow
         section still makes waves above them, and is solved to the highest that its elements resolve.
-        Raises PanelsimError for a stern that ends without a wet transom, and for a solution that no section
-        has.
+        Raises PanelsimError for frequencies that are not such, for a stern that ends without a wet transom,
+        and for a solution that no section has.
         """
+        require_ship(ship)
+        frequencies = _from_rest("frequencies of the transom", frequencies)
         aft, fore = wet_ends(ship.vertices, ship.mesh.panels, ship.waterline)
         section = _section(ship, aft + _AHEAD * (fore - aft))
         share = section.area / _section(ship, 0.5 * (aft + fore)).area
@@ -147,6 +150,19 @@ class Transom:
         motion = section_motion(self.x)
         mean = 0.5 * (sectional + np.swapaxes(sectional, 1, 2))
         return motion.T @ mean @ motion
+
+
+def _from_rest(name: str, frequencies: FloatArray) -> FloatArray:
+    """Frequencies (F,) [rad/s]; PanelsimError unless they rise from 0."""
+    row = finite_row(name, frequencies, "rad/s, those of the database")
+    if len(row) < 2 or row[0] != 0.0 or (np.diff(row) <= 0.0).any():
+        raise PanelsimError(
+            f"The {name} do not rise from 0",
+            got=repr(row.tolist())[:60],
+            allowed="two or more, the first 0 rad/s, each above the one before",
+            remedy="give database.frequencies",
+        )
+    return row
 
 
 def _section(ship: Ship, x: float) -> Section:

@@ -6,20 +6,12 @@ from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.seaway.checks import require_number
 from panelsim.seaway.components import WaveComponents
-from panelsim.ship.ship import Ship
+from panelsim.ship.ship import require_ship
 
 FASTEST = 50.0  # m/s, astern as well as ahead
 # Beyond these, phases of waves have no digits left.
 FARTHEST = 1e6  # m
 LATEST = 1e8  # s
-
-
-def require_ship(ship: object) -> None:
-    """Raise PanelsimError for what is no ship."""
-    if not isinstance(ship, Ship):
-        raise PanelsimError(
-            "The ship is of another kind", got=repr(ship)[:60], allowed="a Ship, as load_ship() makes it"
-        )
 
 
 def require_seaway(seaway: object) -> None:

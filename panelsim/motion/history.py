@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from panelsim.conventions import DOF_NAMES, FloatArray, IntArray
 from panelsim.errors import PanelsimError
-from panelsim.files import write_whole
+from panelsim.files import as_path, require_new, write_whole
 from panelsim.seaway.components import WaveComponents
 
 if TYPE_CHECKING:  # only its fields are read: a saved history opens without the hull package
@@ -265,11 +265,8 @@ class History:
 
     def save(self, path: str | Path, *, overwrite: bool = False) -> Path:
         """Write NetCDF-4, whole or not at all; an existing file is refused unless `overwrite`."""
-        path = Path(path)
-        if path.exists() and not overwrite:
-            raise PanelsimError(
-                "The history would overwrite a file", got=path, remedy="give another name or overwrite=True"
-            )
+        path = as_path(path)
+        require_new(path, "history", overwrite=overwrite)
         encoding = {
             node.path: {
                 name: {"zlib": True, "complevel": 4, "shuffle": True}
@@ -287,7 +284,7 @@ class History:
 
         Raises PanelsimError for a file that is missing, damaged, no history, or of another format.
         """
-        path = Path(path)
+        path = as_path(path)
         if not path.is_file():
             raise PanelsimError("There is no such history file", got=path)
         try:

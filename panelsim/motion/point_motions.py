@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from panelsim.conventions import Dof, FloatArray, rotation_to_earth
+from panelsim.errors import require_kind
 from panelsim.motion.equations import ramp_factor
 from panelsim.motion.history import BoolArray, History
 from panelsim.motion.waves_met import wave_elevation
@@ -16,6 +17,7 @@ from panelsim.ship.points import AXES, POINT_UNITS, point_of_ship, points_of_shi
 
 _FORWARD = np.array([1.0, 0.0, 0.0])
 _UP = np.array([0.0, 0.0, 1.0])
+_A_HISTORY = "a History, as simulate() gives it or History.load() reads it"
 _AXES_NOTE = "translating earth: x forward, y port, z up; mean speed and gravity left out"
 
 
@@ -28,8 +30,10 @@ def point_motions(history: History, point: ArrayLike) -> xr.Dataset:
     displacement less the elevation of the incident wave, positive where the point rises from the water: its
     sum with the attribute `height_above_water` [m], that at rest, is the height over the wave. The wave is
     taken where the point is, in a linear run at its mean place, as the loads of that model are. Rows of a
-    diverged run that hold no numbers are NaN. Raises PanelsimError as `point_of_ship`.
+    diverged run that hold no numbers are NaN. Raises PanelsimError for what is no history, and as
+    `point_of_ship`.
     """
+    require_kind("history", history, History, _A_HISTORY)
     center = history.loading["center_of_gravity"]
     place = point_of_ship(point, center, history.mesh_vertices)
     arm = rotation_to_earth(0.0, float(history.loading["trim"]), 0.0) @ (place - center)
@@ -59,8 +63,10 @@ def point_motions(history: History, point: ArrayLike) -> xr.Dataset:
 def with_points(history: History, points: Mapping[str, ArrayLike]) -> History:
     """The history with the motions of points by name, (3,) [m] in hull axes, as groups `points/NAME`.
 
-    Points that it has already stay, but for those given anew. Raises PanelsimError as `points_of_ship`.
+    Points that it has already stay, but for those given anew. Raises PanelsimError for what is no history,
+    and as `points_of_ship`.
     """
+    require_kind("history", history, History, _A_HISTORY)
     places = points_of_ship(points, history.loading["center_of_gravity"], history.mesh_vertices)
     if not places:
         return history

@@ -10,10 +10,11 @@ import numpy as np
 from panelsim.conventions import METHODS, RULES, STRETCHINGS, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
-from panelsim.loads.arguments import require_ship, require_word, ship_displacement, six_numbers
+from panelsim.loads.arguments import require_word, ship_displacement, six_numbers
 from panelsim.loads.supplementary import Supplementary
 from panelsim.seaway.checks import is_number
 from panelsim.seaway.components import WaveComponents
+from panelsim.ship.ship import require_ship
 
 MODELS = ("nonlinear", "linear")
 INERTIAS = ("large", "linear")

@@ -7,13 +7,14 @@ from numpy.typing import ArrayLike
 
 from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.hydro.arguments import finite_row
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.roll_damping.terms import RollDampingTerms
 from panelsim.hydro.transom import Transom
-from panelsim.loads.arguments import FASTEST, require_ship
+from panelsim.loads.arguments import FASTEST
 from panelsim.loads.supplementary import Supplementary
 from panelsim.seaway.checks import require_angles
-from panelsim.ship.ship import Ship
+from panelsim.ship.ship import Ship, require_ship
 
 HIGHEST_FREQUENCY = 50.0  # rad/s; a wave of 2.5 cm
 
@@ -35,7 +36,7 @@ def require_parts(ship: Ship, database: HydroDatabase, supplementary: object, tr
 
 def rising_frequencies(values: ArrayLike) -> FloatArray:
     """Wave frequencies (F,) [rad/s]; PanelsimError unless they are positive and rise."""
-    array = _row("wave frequencies", values, "rad/s")
+    array = finite_row("wave frequencies", values, "rad/s")
     if not (array.min() > 0.0 and array.max() <= HIGHEST_FREQUENCY and np.all(np.diff(array) > 0.0)):
         raise PanelsimError(
             "The wave frequencies are not positive and rising",
@@ -47,7 +48,7 @@ def rising_frequencies(values: ArrayLike) -> FloatArray:
 
 def different_headings(name: str, values: ArrayLike) -> FloatArray:
     """Headings (H,) [rad]; PanelsimError unless they are angles in radians, each but once."""
-    array = require_angles(name, _row(f"{name}s", values, "rad"))
+    array = require_angles(name, finite_row(f"{name}s", values, "rad"))
     if len(np.unique(np.round(np.mod(array, 2.0 * np.pi), 9))) < len(array):
         raise PanelsimError(
             f"A {name} is given twice", got=np.round(np.degrees(array), 3).tolist(), remedy="give each once"
@@ -57,7 +58,7 @@ def different_headings(name: str, values: ArrayLike) -> FloatArray:
 
 def different_speeds(values: ArrayLike) -> FloatArray:
     """Speeds (S,) [m/s]; PanelsimError unless they are those of a ship that goes ahead, each but once."""
-    array = _row("speeds", values, "m/s")
+    array = finite_row("speeds", values, "m/s")
     if array.min() < 0.0 or array.max() > FASTEST or len(np.unique(array)) < len(array):
         raise PanelsimError(
             "The speeds are not those of a ship that goes ahead, or one is given twice",
@@ -80,16 +81,3 @@ def terms_by_speed(roll_damping: RollDamping, speeds: int) -> tuple[RollDampingT
             allowed=f"RollDampingTerms, or {speeds} of them",
         )
     return given
-
-
-def _row(name: str, values: ArrayLike, unit: str) -> FloatArray:
-    """Finite numbers in a row, at least one."""
-    try:
-        array = np.array(values, dtype=float, ndmin=1)
-    except (TypeError, ValueError):
-        array = np.empty(0)
-    if array.ndim != 1 or not array.size or not np.isfinite(array).all():
-        raise PanelsimError(
-            f"The {name} are not a row of finite numbers", got=repr(values)[:60], allowed=unit
-        )
-    return array

@@ -25,6 +25,7 @@ from panelsim.response.notes import response_notes
 from panelsim.response.origin import made_from
 from panelsim.response.signals import PointSignals, Signals, SixMotions, units_by_signal
 from panelsim.response.transfer_functions import TransferFunctions
+from panelsim.seaway.checks import real_numbers
 from panelsim.ship.points import point_of_ship
 from panelsim.ship.ship import Ship
 
@@ -58,7 +59,7 @@ class Response(TransferFunctions):
         PanelsimError for values that are not one for each speed and heading, none below 0.
         """
         shape = self.transfer.shape[:2]
-        wanted = np.array(damping, dtype=float)
+        wanted = real_numbers("roll damping", damping)
         if wanted.shape != shape or not (np.isfinite(wanted).all() and (wanted >= 0.0).all()):
             raise PanelsimError(
                 "The roll damping is not one for each speed and heading",

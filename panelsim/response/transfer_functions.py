@@ -8,8 +8,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from panelsim.conventions import ComplexArray, FloatArray
-from panelsim.errors import PanelsimError
-from panelsim.files import write_whole
+from panelsim.files import as_path, require_new, write_whole
 from panelsim.hydro.roll_damping.terms import RollDampingTerms
 from panelsim.response.in_sea import in_sea
 from panelsim.response.linear_ship import LinearShip
@@ -121,11 +120,8 @@ class TransferFunctions:
 
         An existing file is refused unless `overwrite`.
         """
-        path = Path(path)
-        if path.exists() and not overwrite:
-            raise PanelsimError(
-                "The response would overwrite a file", got=path, remedy="give another name or overwrite=True"
-            )
+        path = as_path(path)
+        require_new(path, "response", overwrite=overwrite)
         write_whole(path, bytes(real_valued(self.dataset).to_netcdf(engine="h5netcdf")))
         return path
 

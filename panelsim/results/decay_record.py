@@ -43,7 +43,7 @@ class DecayRecord:
         """
         try:
             rows = list(csv.reader(path.read_text(encoding="utf-8-sig").splitlines()))
-        except UnicodeDecodeError as error:
+        except (UnicodeDecodeError, csv.Error) as error:
             raise PanelsimError("The decay record is not text in UTF-8", got=path) from error
         heads = [head.strip() for head in rows[0]] if rows else []
         known = [name for name in ROLL_COLUMNS if name in heads]
@@ -54,15 +54,33 @@ class DecayRecord:
                 allowed=f"{TIME_COLUMN}, and one of {', '.join(ROLL_COLUMNS)}",
             )
         places = heads.index(TIME_COLUMN), heads.index(known[0])
-        numbers = np.array([_numbers(path, i, row, places) for i, row in enumerate(rows[1:], 2) if row])
+        lines = [(i, row) for i, row in enumerate(rows[1:], 2) if row]
+        for line, row in lines:
+            if len(row) != len(heads):
+                raise PanelsimError(
+                    f"{path}, line {line} has another number of columns than the first line",
+                    got=f"{len(row)}: {','.join(row)[:100]}",
+                    allowed=f"{len(heads)}: {','.join(heads)[:100]}",
+                )
+        numbers = np.array([_numbers(path, line, row, places) for line, row in lines])
         time, roll = numbers.reshape(-1, 2).T
+        for (line, _), before, after in zip(lines[1:], time[:-1], time[1:], strict=True):
+            if after <= before:
+                raise PanelsimError(
+                    f"{path}, line {line}: the time does not increase",
+                    got=f"{after:g} s after {before:g} s",
+                    allowed="each time after the one before [s]",
+                )
         return cls(time, ROLL_COLUMNS[known[0]] * roll, path.name)
 
 
 def _numbers(path: Path, line: int, row: list[str], places: tuple[int, int]) -> list[float]:
     try:
-        return [float(row[place]) for place in places]
-    except (ValueError, IndexError):
+        values = [float(row[place]) for place in places]
+    except ValueError:
+        values = [np.nan]
+    if not np.isfinite(values).all():
         raise PanelsimError(
-            f"{path}, line {line} holds no time and roll", got=",".join(row)[:100], allowed="numbers"
-        ) from None
+            f"{path}, line {line} holds no time and roll", got=",".join(row)[:100], allowed="finite numbers"
+        )
+    return values

@@ -17,7 +17,7 @@ def is_number(value: object) -> bool:
 def require_positive(name: str, value: object, unit: str) -> float:
     """The value as a float, refused unless it is a finite number above 0."""
     if not (is_number(value) and 0 < value < np.inf):  # type: ignore[operator]
-        raise PanelsimError(f"{name} is not positive", got=repr(value)[:60], allowed=f"more than 0 {unit}")
+        raise PanelsimError(f"{name} is not positive", got=_shown(value), allowed=f"more than 0 {unit}")
     return float(value)  # type: ignore[arg-type]
 
 
@@ -55,10 +55,26 @@ def require_number(
     if not (number and np.isfinite(value) and low <= value <= high):  # type: ignore[call-overload,operator]
         raise PanelsimError(
             f"The {name} is out of range" if number else f"The {name} is not a number",
-            got=repr(value)[:60],
-            allowed=f"{low:g} to {high:g} {unit}",
+            got=_shown(value),
+            allowed=_range(low, high, unit),
             remedy=remedy,
         )
+
+
+def real_numbers(name: str, values: ArrayLike) -> FloatArray:
+    """The values, finite or not, as a new array of floats.
+
+    Raises PanelsimError for text, None, complex numbers and rows of unequal length.
+    """
+    try:
+        array = np.asarray(values)
+    except ValueError:  # rows of unequal length
+        array = np.asarray(None)
+    if array.dtype.kind not in "iuf":
+        raise PanelsimError(
+            f"The {name} is not made of real numbers", got=repr(values)[:60], allowed="numbers"
+        )
+    return array.astype(np.float64)
 
 
 def require_angle(name: str, angle: object) -> float:
@@ -74,8 +90,8 @@ def require_angles(name: str, angles: ArrayLike) -> FloatArray:
     Raises PanelsimError for what is no number, not finite, or beyond ±2π: degrees, most likely.
     """
     try:
-        array = np.asarray(angles, dtype=float)
-    except (TypeError, ValueError):
+        array = real_numbers(name, angles)
+    except PanelsimError:
         raise _no_angle(name, angles) from None
     if not np.all(np.abs(array) <= 2 * np.pi):
         raise _no_angle(name, angles)
@@ -89,3 +105,16 @@ def _no_angle(name: str, got: object) -> PanelsimError:
         allowed="-2π to 2π rad",
         remedy="turn degrees into radians, for example np.deg2rad(150)",
     )
+
+
+def _range(low: float, high: float, unit: str) -> str:
+    """What a finite number may be, in words."""
+    if np.isfinite(low) and np.isfinite(high):
+        return f"{low:g} to {high:g} {unit}"
+    ends = f", {low:g} or more" if np.isfinite(low) else f", {high:g} or less" if np.isfinite(high) else ""
+    return f"a finite number{ends} [{unit}]"
+
+
+def _shown(value: object) -> str:
+    """A value as it is typed: NumPy's scalars show their type with it."""
+    return repr(value.item() if isinstance(value, np.generic) else value)[:60]

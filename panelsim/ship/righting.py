@@ -6,8 +6,8 @@ from numpy.typing import ArrayLike
 from panelsim.hull.equilibrium import settle, waterline_of_volume
 from panelsim.hull.immersed import immersed_part
 from panelsim.hull.panel_mesh import PanelMesh
-from panelsim.ship.righting_arms import Attitude, RightingArms, curve_of
-from panelsim.ship.ship import Ship
+from panelsim.ship.righting_arms import Attitude, RightingArms, curve_of, require_choice_of_trim
+from panelsim.ship.ship import Ship, require_ship
 
 CALM = "calm water"
 
@@ -18,9 +18,11 @@ def righting_arm(ship: Ship, heel: ArrayLike, *, free_trim: bool = True) -> Righ
     The ship is turned by Ry(trim) Rx(heel) about its CG, in ship axes, as in a run: starboard and bow down
     positive, 0 at rest. The heels reach from -π to π. Buoyancy is exact for the panels, decks
     included, the hull being closed; the draft and trim at each heel leave no force and no trimming moment.
-    Without `free_trim` the trim stays that of rest. Raises PanelsimError for heels that are no rising angles
-    and where no balance is found.
+    Without `free_trim` the trim stays that of rest. Raises PanelsimError for arguments of another kind, for
+    heels that are no rising angles and where no balance is found.
     """
+    require_ship(ship)
+    require_choice_of_trim(free_trim)
     mesh = PanelMesh(ship.vertices, ship.mesh.panels)
     volume = ship.mass / ship.water_density
     gravity_center = np.zeros(3)

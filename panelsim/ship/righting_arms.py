@@ -10,7 +10,8 @@ from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq, minimize_scalar
 
 from panelsim.conventions import FloatArray
-from panelsim.errors import PanelsimError
+from panelsim.errors import PanelsimError, require_kind
+from panelsim.seaway.checks import is_number, real_numbers
 
 SMALL_HEEL = 1e-3  # rad
 ROUNDING = 1e-9  # of the largest arm: an arm below this is none
@@ -57,10 +58,11 @@ class RightingArms:
         Raises PanelsimError for heels that the curve does not reach, or that are not in order.
         """
         low, high = float(self.heel[0]), float(self.heel[-1])
-        if not low <= lower <= upper <= high:
+        in_order = is_number(lower) and is_number(upper) and low <= lower <= upper <= high
+        if not in_order:
             raise PanelsimError(
                 "The righting arms do not reach over the area asked for",
-                got=f"from {lower:g} to {upper:g} rad",
+                got=f"from {lower} to {upper} rad",
                 allowed=f"two heels in order, {low:g} to {high:g} rad",
             )
         return float(PchipInterpolator(self.heel, self.arm).integrate(lower, upper))
@@ -89,11 +91,13 @@ def curve_of(afloat: Afloat, heel: ArrayLike, water: str) -> RightingArms:
     )
 
 
+def require_choice_of_trim(free_trim: object) -> None:
+    """Raise PanelsimError unless it is True or False: a word, such as "no", would count as True."""
+    require_kind("choice of free_trim", free_trim, bool | np.bool_, "True or False")
+
+
 def _checked_heels(heel: ArrayLike) -> FloatArray:
-    try:
-        angles = np.array(heel, dtype=float)
-    except (TypeError, ValueError):
-        raise PanelsimError("The heel angles are not numbers", got=repr(heel)[:60]) from None
+    angles = real_numbers("row of heel angles", heel)
     listed = angles.ndim == 1 and len(angles) >= 2 and bool(np.isfinite(angles).all())
     if not listed or (np.diff(angles) <= 0.0).any() or np.abs(angles).max() > np.pi + ON_HALF_A_TURN:
         raise PanelsimError(

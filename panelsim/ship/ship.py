@@ -12,7 +12,7 @@ from panelsim.conventions import (
     FloatArray,
     rotation_to_earth,
 )
-from panelsim.errors import PanelsimError
+from panelsim.errors import PanelsimError, require_kind
 from panelsim.hull.checks import require_sound
 from panelsim.hull.equilibrium import draft_of_mass, equilibrium
 from panelsim.hull.form import HullForm
@@ -270,3 +270,8 @@ def _require_wet(ship: Ship) -> None:
             got=f"mass {ship.mass:g} kg, draft {ship.draft:.3g} m",
             remedy="masses are in kg (4655 t are 4.655e6 kg), lengths in m; or take smaller panels",
         )
+
+
+def require_ship(ship: object) -> None:
+    """Raise PanelsimError for what is no ship."""
+    require_kind("ship", ship, Ship, "a Ship, as load_ship() makes it")

@@ -19,7 +19,8 @@ _REMEDY = "choose the folder of this case with --out, or leave out --resume to r
 def begun_run(case: Case, folder: Path) -> History:
     """The history in a folder, if it is that of the beginning of this case.
 
-    Raises PanelsimError where there is none, or with the keys that are others than in the case.
+    Raises PanelsimError where there is none, with the keys that are others than in the case, and where it is
+    longer than the case.
     """
     file = folder / HISTORY
     if not file.is_file():
@@ -34,6 +35,14 @@ def begun_run(case: Case, folder: Path) -> History:
     if differences:
         raise PanelsimError(
             "The run in the output folder is of another case", got="; ".join(differences), remedy=_REMEDY
+        )
+    run = case.file.run
+    if len(history.time) > run.steps + 1:
+        raise PanelsimError(
+            "The run in the output folder is longer than the case",
+            got=f"{history.time[-1] - run.ramp:g} s after the ramp",
+            allowed=f"at most run.duration = {run.duration:g} s",
+            remedy="give a longer run.duration, or leave out --resume to run the case from its start",
         )
     return history
 

@@ -8,13 +8,13 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from panelsim.conventions import FloatArray, rotation_to_earth
-from panelsim.errors import PanelsimError
+from panelsim.errors import PanelsimError, require_kind
 from panelsim.kernels.runtime import interrupts_held_back
 from panelsim.kernels.tables import panel_tables, wave_tables
 from panelsim.seaway.checks import require_number, require_positive
 from panelsim.seaway.steepness import BREAKING_STEEPNESS
-from panelsim.ship.righting_arms import Attitude, RightingArms, curve_of
-from panelsim.ship.ship import Ship
+from panelsim.ship.righting_arms import Attitude, RightingArms, curve_of, require_choice_of_trim
+from panelsim.ship.ship import Ship, require_ship
 
 PRESSURES = ("wheeler", "hydrostatic")
 
@@ -92,9 +92,13 @@ def righting_arm_in_wave(
     The ship is turned by Ry(trim) Rx(heel) about its CG, which stays where it is along the wave. `pressure`
     is that of runs, "wheeler", -ρ g z + ρ g a cos θ exp(k (z - ζ)), TM 2003-190 section 2.6, or
     "hydrostatic", ρ g (ζ - z) below the wave, as rules on stability in waves have it. Arms are moments over
-    the weight of the ship. Without `free_trim` the trim stays that of rest. Raises PanelsimError for heels
-    that are no rising angles, an unknown pressure, and where no balance is found.
+    the weight of the ship. Without `free_trim` the trim stays that of rest. Raises PanelsimError for
+    arguments of another kind, heels that are no rising angles, an unknown pressure, and where no balance is
+    found.
     """
+    require_ship(ship)
+    require_kind("wave", wave, FrozenWave, "a FrozenWave, for example FrozenWave(120.0, 4.0)")
+    require_choice_of_trim(free_trim)
     if pressure not in PRESSURES:
         raise PanelsimError(
             "The pressure under the wave is not known", got=repr(pressure)[:60], allowed=" | ".join(PRESSURES)

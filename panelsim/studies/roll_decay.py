@@ -6,6 +6,7 @@ import numpy as np
 
 from panelsim.case import Case
 from panelsim.conventions import Dof
+from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.database import Progress as CoefficientProgress
 from panelsim.hydro.roll_damping.natural import NaturalRoll, natural_roll
@@ -13,11 +14,11 @@ from panelsim.loads.supplementary import Supplementary
 from panelsim.motion.history import History
 from panelsim.motion.march import Progress as RunProgress
 from panelsim.motion.simulate import simulate
-from panelsim.seaway.checks import require_number
 from panelsim.seaway.seaways import CalmSeaway
 from panelsim.ship.ship import Ship
 
 PERIODS = 10  # of natural roll: what is left after them of a roll with 1 % of critical damping is half of it
+HEELS_DEG = (0.1, 60.0)
 # Steps a natural period, at least: the fit is then better than its record.
 STEPS_A_PERIOD = 40
 # What holds the course is this many times faster than the roll, so that it does not show in it.
@@ -46,7 +47,13 @@ def run_roll_decay(
     their own that show in the roll. She is free to yaw too at rest; under way a stiff spring with critical
     damping holds her course. Raises PanelsimError for a heel that is no release, and for a bad case.
     """
-    require_number("heel, to either side,", abs(np.rad2deg(heel)), "deg", low=0.1, high=60.0)
+    degrees = float(np.rad2deg(heel))
+    if not HEELS_DEG[0] <= abs(degrees) <= HEELS_DEG[1]:
+        raise PanelsimError(
+            "The heel, to either side, is out of range",
+            got=f"{degrees:g} deg",
+            allowed=f"{HEELS_DEG[0]:g} to {HEELS_DEG[1]:g} deg, or as much below 0",
+        )
     run = case.file.run
     supplementary = case.supplementary
     database = case.database(on_coefficients)

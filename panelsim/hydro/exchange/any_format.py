@@ -8,12 +8,14 @@ import h5py  # type: ignore[import-untyped]
 from numpy.typing import ArrayLike
 
 from panelsim.errors import PanelsimError
+from panelsim.files import as_path
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.exchange.bemio import read_bemio
 from panelsim.hydro.exchange.capytaine_dataset import read_capytaine
 from panelsim.hydro.exchange.hdb import read_hdb
+from panelsim.hydro.exchange.hdf5 import opened
 from panelsim.hydro.exchange.wamit import WAMIT_SUFFIXES, read_wamit
-from panelsim.ship.ship import Ship
+from panelsim.ship.ship import Ship, require_ship
 
 FORMATS = (
     "a dataset of Capytaine (.nc), files or a folder of WAMIT (.1, .3, .3sc), HDF5 of BEMIO or HDB5 (.h5)"
@@ -69,7 +71,8 @@ def read_database(
     file that none of them reads, for what the file does not say and is not given, for what has no meaning
     with it, and as the reader does.
     """
-    path = Path(path)
+    path = as_path(path)
+    require_ship(ship)
     kind, place = _format_of(path)
     given = {
         "forward": forward,
@@ -107,7 +110,7 @@ def _format_of(path: Path) -> tuple[_Format, Path]:
         if path.suffix == ".nc":  # NetCDF-3, or damaged: the reader says so
             return _CAPYTAINE, path
         raise _unknown(path)
-    with h5py.File(path, "r") as file:
+    with opened(path, "coefficient") as file:
         if "potential_infinite" in file or "diffraction_real" in file:
             raise PanelsimError(
                 "This is a database of panelsim already",

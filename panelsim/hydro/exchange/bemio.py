@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.files import as_path
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.exchange.assemble import database_of
 from panelsim.hydro.exchange.foreign import ForeignCoefficients
@@ -38,7 +39,7 @@ def read_bemio(
     `database_of`; such files seldom hold frequency 0. Raises PanelsimError for a file that is not whole, of
     more bodies, or of another ship.
     """
-    with opened(Path(path), "BEMIO") as file:
+    with opened(as_path(path), "BEMIO") as file:
         if "body2" in file:
             raise PanelsimError("The file holds more than one body", got=path, allowed="one")
         omega = file.vector("simulation_parameters/w")

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from panelsim.conventions import DOF_NAMES, ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.files import as_path
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.exchange.assemble import database_of
 from panelsim.hydro.exchange.foreign import ForeignCoefficients
@@ -50,7 +51,7 @@ def read_capytaine(
     speed, or of another ship.
     """
     name = "the dataset" if isinstance(source, xr.Dataset) else str(source)
-    dataset = source if isinstance(source, xr.Dataset) else _opened(Path(source))
+    dataset = source if isinstance(source, xr.Dataset) else _opened(as_path(source))
     _require_layout(name, dataset)
     frame = Frame.given(
         forward=forward,
@@ -107,7 +108,8 @@ def _opened(path: Path) -> xr.Dataset:
     except (OSError, ValueError, KeyError, RuntimeError) as error:
         raise PanelsimError(
             "The Capytaine dataset cannot be read: it is missing, damaged or no NetCDF",
-            got=f"{path} ({str(error).splitlines()[0][:100]})",
+            # xarray's ValueError lists what other files it could read.
+            got=path if isinstance(error, ValueError) else f"{path} ({str(error).splitlines()[0][:100]})",
             remedy="write it with capytaine.export_dataset",
         ) from error
 

@@ -3,6 +3,8 @@
 import numpy as np
 
 from panelsim.conventions import FloatArray
+from panelsim.errors import require_kind
+from panelsim.hydro.arguments import A_DATABASE
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.tabulated_diffraction import SPEED_NOTE, largest_frequency_step, largest_heading_step
 
@@ -10,7 +12,11 @@ _ROUNDING = 1e-6
 
 
 def coverage(database: HydroDatabase) -> str:
-    """Lines on the frequencies and headings of a database, its gaps, and what holds at speed."""
+    """Lines on the frequencies and headings of a database, its gaps, and what holds at speed.
+
+    Raises PanelsimError for what is no database.
+    """
+    require_kind("database", database, HydroDatabase, A_DATABASE)
     frequency = database.frequencies
     lines = [
         f"Source: {database.dataset.attrs.get('solver', 'not told')}.",

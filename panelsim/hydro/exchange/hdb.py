@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.files import as_path
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.exchange.assemble import database_of
 from panelsim.hydro.exchange.foreign import ForeignCoefficients
@@ -41,7 +42,7 @@ def read_hdb(
     `database_of`. Raises PanelsimError for a file that is not whole, of more bodies or motions, or of another
     ship.
     """
-    with opened(Path(path), "HDB5") as file:
+    with opened(as_path(path), "HDB5") as file:
         if file.number("NbBody") != 1:
             raise PanelsimError(
                 "The file holds more than one body", got=f"{path}: {file.number('NbBody'):g}", allowed="one"

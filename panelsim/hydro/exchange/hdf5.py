@@ -70,7 +70,7 @@ def opened(path: Path, kind: str) -> Iterator[Hdf5Numbers]:
     except OSError as error:
         raise PanelsimError(
             f"The {kind} file cannot be read: it is missing, damaged, cut short or not HDF5",
-            got=f"{path} ({str(error).splitlines()[0][:100]})",
+            got=f"{path} ({str(error).splitlines()[0][:200]})",
         ) from error
     with file:
         yield Hdf5Numbers(path, file)

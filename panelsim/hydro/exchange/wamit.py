@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from panelsim.conventions import DOF_NAMES, ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.files import as_path
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.exchange.assemble import database_of
 from panelsim.hydro.exchange.foreign import ForeignCoefficients
@@ -48,7 +49,8 @@ def read_wamit(
     [rad/s] (IPEROUT 1 or 2). `rest` as in `database_of`. Raises PanelsimError for files that are missing, cut
     short or not of this ship.
     """
-    stem = Path(path).with_suffix("") if Path(path).suffix in WAMIT_SUFFIXES else Path(path)
+    path = as_path(path)
+    stem = path.with_suffix("") if path.suffix in WAMIT_SUFFIXES else path
     if first_column not in FIRST_COLUMNS:
         raise PanelsimError(
             "first_column is not known", got=repr(first_column), allowed=" | ".join(FIRST_COLUMNS)

@@ -12,7 +12,7 @@ from panelsim.errors import PanelsimError
 from panelsim.hydro.roll_damping.amplitudes import require_amplitudes
 from panelsim.hydro.roll_damping.extinction import Extinction, fit_extinction_curve
 from panelsim.hydro.roll_damping.terms import RollDampingTerms
-from panelsim.seaway.checks import require_angles, require_positive
+from panelsim.seaway.checks import real_numbers, require_angles, require_positive
 
 # RK4 at this many steps a period is good to 1e-6 of the period.
 _STEPS_A_PERIOD = 60
@@ -160,16 +160,28 @@ def _require_decay(start: Extinction, time: FloatArray, roll: FloatArray) -> Non
 
 
 def _checked(time: ArrayLike, roll: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    angles = require_angles("roll of the decay record", roll)
-    instants = np.asarray(time, dtype=float)
+    angles, instants = real_numbers("roll", roll), real_numbers("time", time)
     if instants.shape != angles.shape or angles.ndim != 1 or len(angles) < 10:
         raise PanelsimError(
             "Time and roll are not two equal rows of samples",
             got=f"shapes {instants.shape} and {angles.shape}",
             allowed="ten samples or more of each",
         )
-    if not (np.all(np.isfinite(instants)) and np.all(np.diff(instants) > 0.0)):
+    for name, values in (("time", instants), ("roll", angles)):
+        wrong = np.flatnonzero(~np.isfinite(values))
+        if len(wrong):
+            raise PanelsimError(
+                f"The {name} of the record is not finite at sample {wrong[0] + 1} of {len(values)}",
+                got=f"{values[wrong[0]]:g}, and {len(wrong)} such samples in all",
+                allowed="finite numbers",
+                remedy="leave these samples out",
+            )
+    late = np.flatnonzero(np.diff(instants) <= 0.0)
+    if len(late):
         raise PanelsimError(
-            "The times of the record do not increase", allowed="finite, each after the last [s]"
+            f"The times of the record do not increase at sample {late[0] + 2}",
+            got=f"{instants[late[0] + 1]:g} s after {instants[late[0]]:g} s",
+            allowed="each time after the one before [s]",
         )
+    require_angles("largest roll of the decay record", float(np.abs(angles).max()))
     return instants, angles

@@ -6,13 +6,14 @@ ITTC 7.5-02-07-04.5 (2011); Y. Himeno, Prediction of ship roll damping, Universi
 was made for cargo ships; it is not validated here for others.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from panelsim.conventions import FloatArray
-from panelsim.errors import PanelsimError
+from panelsim.errors import PanelsimError, require_kind
 from panelsim.hull.appendages import BilgeKeelSegment
 from panelsim.hydro.roll_damping.amplitudes import require_amplitudes
 from panelsim.hydro.roll_damping.bilge_keels import hull_pressure_damping, normal_force_damping
@@ -24,6 +25,10 @@ from panelsim.seaway.checks import require_number, require_positive
 # κ of the lift slope, by midship coefficient: up to 0.92, up to 0.97, above (given up to 0.99).
 _LIFT_MIDSHIP = (0.92, 0.97)
 _LIFT_KAPPA = (0.0, 0.1, 0.3)
+A_ROLLING_HULL = (
+    "a RollingHull: particulars and immersed sections; panelsim.case.roll_damping_section.rolling_hull(ship)"
+    " makes one of a Ship with a table of offsets"
+)
 # Amplitudes at which terms are fitted: what ships roll, and what the method was measured at.
 _FIT_AMPLITUDES = np.deg2rad([2.0, 5.0, 10.0, 15.0, 20.0])
 
@@ -52,9 +57,13 @@ def ikeda_damping(
 ) -> IkedaDamping:
     """The components for `roll_amplitude` (...) [rad], roll `frequency` [rad/s] and ship `speed` [m/s].
 
-    `bilge_keels` may be empty. Raises PanelsimError for an amplitude not above 0, for keels outside the
-    sections, for a negative speed.
+    `bilge_keels` may be empty. Raises PanelsimError for arguments of another kind, for an amplitude not above
+    0, for keels outside the sections, for a negative speed.
     """
+    require_kind("hull", hull, RollingHull, A_ROLLING_HULL)
+    require_kind("list of bilge keels", bilge_keels, Sequence, "BilgeKeelSegment, none or more")
+    for keel in bilge_keels:
+        require_kind("bilge keel", keel, BilgeKeelSegment, "a BilgeKeelSegment")
     amplitude = require_amplitudes(roll_amplitude)
     require_positive("The roll frequency", frequency, "rad/s")
     require_number("speed", speed, "m/s", low=0.0)

@@ -15,7 +15,7 @@ from scipy.optimize import nnls
 from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.roll_damping.amplitudes import require_amplitudes
-from panelsim.seaway.checks import require_number, require_positive
+from panelsim.seaway.checks import is_number, real_numbers, require_number, require_positive
 
 _REGULAR = np.array([1.0, 8.0 / (3.0 * np.pi), 0.75])
 _GAUSSIAN = np.array([1.0, np.sqrt(8.0 / np.pi), 3.0])
@@ -30,9 +30,11 @@ class RollDampingTerms:
     cubic: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("linear", "quadratic", "cubic"):
+        for name, unit in (("linear", "N m s"), ("quadratic", "N m s2"), ("cubic", "N m s3")):
+            value = getattr(self, name)
+            negative = is_number(value) and value < 0.0
             remedy = "a negative term drives the roll at some rate: leave it out and fit again"
-            require_number(f"{name} roll damping", getattr(self, name), "N m sⁿ", low=0.0, remedy=remedy)
+            require_number(f"{name} roll damping", value, unit, low=0.0, remedy=remedy if negative else None)
 
     @classmethod
     def of_critical(cls, ratio: float, inertia: float, stiffness: float) -> Self:
@@ -53,7 +55,7 @@ class RollDampingTerms:
         `frequency` [rad/s].
         """
         rate = require_positive("The roll frequency", frequency, "rad/s") * require_amplitudes(roll_amplitude)
-        damping = np.asarray(damping, dtype=float)
+        damping = real_numbers("damping", damping)
         if damping.shape != rate.shape or len(np.unique(rate)) < 3 or not np.all(damping >= 0.0):
             raise PanelsimError(
                 "Three terms cannot be fitted to this damping",
@@ -68,7 +70,7 @@ class RollDampingTerms:
 
     def moment(self, roll_rate: ArrayLike) -> FloatArray:
         """Damping moment about x [N m], against the `roll_rate` (...) [rad/s]."""
-        rate = np.asarray(roll_rate, dtype=float)
+        rate = real_numbers("roll rate", roll_rate)
         size = np.abs(rate)
         moment: FloatArray = -rate * (self.linear + size * (self.quadratic + size * self.cubic))
         return moment
@@ -88,7 +90,7 @@ class RollDampingTerms:
 
 
 def _not_negative(name: str, values: ArrayLike) -> FloatArray:
-    array = np.asarray(values, dtype=float)
+    array = real_numbers(name, values)
     if not (array.size and np.all(np.isfinite(array)) and np.all(array >= 0.0)):
         raise PanelsimError(f"A {name} is negative or not finite", got=repr(values)[:60], allowed="0 or more")
     return array

@@ -7,6 +7,7 @@ import numpy as np
 from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.strip.sections import Section
+from panelsim.seaway.checks import require_number, require_positive
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,10 @@ def lewis_form(
     the area makes no form: too small, the outline would cross the centreline or the water (re-entrant);
     too large, there is no root.
     """
-    _require_dimensions(breadth, draft, area)
+    for name, value, unit in (("breadth", breadth, "m"), ("draft", draft, "m"), ("area", area, "m2")):
+        require_positive(f"The {name} of a Lewis form", value, unit)
+    require_number("waterline of a Lewis form", waterline, "m")
+    require_number("x of a Lewis form", x, "m")
     least, most = lewis_area_range(breadth, draft)
     if not least <= area <= most:
         raise PanelsimError(
@@ -122,11 +126,3 @@ def lewis_area_range(breadth: float, draft: float) -> tuple[float, float]:
     least = 3.0 * np.pi / 32.0 * (2.0 - min(ratio, 1.0 / ratio))
     most = np.pi / 32.0 * (10.0 + ratio + 1.0 / ratio)
     return least * breadth * draft, most * breadth * draft
-
-
-def _require_dimensions(breadth: float, draft: float, area: float) -> None:
-    for name, value in (("breadth", breadth), ("draft", draft), ("area", area)):
-        if not (np.isfinite(value) and value > 0.0):
-            raise PanelsimError(
-                f"The {name} of a Lewis form is not positive", got=value, allowed="more than 0"
-            )

@@ -7,7 +7,8 @@ from functools import cached_property
 import numpy as np
 
 from panelsim.conventions import FloatArray
-from panelsim.errors import PanelsimError
+from panelsim.errors import PanelsimError, require_kind
+from panelsim.seaway.checks import real_numbers, require_number
 
 FEWEST_SECTIONS = 5
 _ON_THE_WATERLINE = 1e-6  # share of a section's size within which its ends lie on the water
@@ -29,13 +30,15 @@ class Section:
     waterline: float
 
     def __post_init__(self) -> None:
-        points = np.array(self.points, dtype=np.float64)
+        require_number("x of a section", self.x, "m")
+        require_number("waterline of a section", self.waterline, "m")
         where = f"The section at x = {self.x:g} m"
+        points = real_numbers(f"outline of the section at x = {self.x:g} m", self.points)
         if points.ndim != 2 or points.shape[1:] != (2,) or len(points) < 3:
             raise PanelsimError(
                 f"{where} has too few points", got=points.shape, allowed="three or more pairs of y and z"
             )
-        if not (np.isfinite(points).all() and np.isfinite([self.x, self.waterline]).all()):
+        if not np.isfinite(points).all():
             raise PanelsimError(f"{where} is not given in finite numbers", got=points.tolist())
         height = points[:, 1] - self.waterline
         tolerance = _ON_THE_WATERLINE * float(np.ptp(points, axis=0).max())
@@ -121,6 +124,11 @@ class HullSections:
     fore_end: float
 
     def __post_init__(self) -> None:
+        require_kind("list of sections", self.sections, Sequence, "a sequence of Section")
+        for section in self.sections:
+            require_kind("section", section, Section, "a Section")
+        require_number("aft end", self.aft_end, "m")
+        require_number("fore end", self.fore_end, "m")
         if len(self.sections) < FEWEST_SECTIONS:
             raise PanelsimError(
                 "There are too few sections for strip theory",
@@ -184,15 +192,28 @@ def sections_from_offsets(stations: Sequence[FloatArray], waterline: float) -> H
     """Sections from the stations of an offset table, (P, 3) each: x, half-breadth, height, keel to deck.
 
     Ship axes [m]; a station that trim has inclined counts at its mean x. Stations that lie wholly above the
-    water are left out. The outermost wet stations are the ends of the hull.
+    water are left out. The outermost wet stations are the ends of the hull. Raises PanelsimError for stations
+    that are no such rows, and as `section_from_offsets` and `HullSections` do.
     """
-    wet = [station for station in stations if np.min(station[:, 2]) < waterline]
+    require_number("waterline", waterline, "m")
+    wet = [station for station in _stations(stations) if np.min(station[:, 2]) < waterline]
     sections = [
         section_from_offsets(float(s[:, 0].mean()), s[:, 1], s[:, 2], waterline)
         for s in sorted(wet, key=lambda s: float(s[:, 0].mean()))
     ]
     ends = (sections[0].x, sections[-1].x) if sections else (0.0, 0.0)
     return HullSections(tuple(sections), *ends)
+
+
+def _stations(stations: Sequence[FloatArray]) -> list[FloatArray]:
+    """Stations (P, 3) of numbers; PanelsimError for what is none."""
+    allowed = "a sequence of stations, (P, 3) each: x, half-breadth and height [m]"
+    require_kind("table of offsets", stations, Sequence | np.ndarray, allowed)
+    rows = [real_numbers("station of the table of offsets", station) for station in stations]
+    for row in rows:
+        if row.ndim != 2 or row.shape[1] != 3 or not len(row):
+            raise PanelsimError("A station is not rows of three numbers", got=row.shape, allowed=allowed)
+    return rows
 
 
 def _without_repeats(points: FloatArray) -> FloatArray:

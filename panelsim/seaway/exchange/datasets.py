@@ -70,7 +70,8 @@ def open_spectrum(
     except (OSError, ValueError) as error:
         raise PanelsimError(
             "The file of wave spectra cannot be read",
-            got=f"{path} ({str(error).splitlines()[0][:100]})",
+            # xarray's ValueError lists what other files it could read.
+            got=path if isinstance(error, ValueError) else f"{path} ({str(error).splitlines()[0][:100]})",
             allowed="a NetCDF file with efth(time, site, freq, dir)",
         ) from error
     with dataset:
