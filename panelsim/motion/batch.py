@@ -1,9 +1,11 @@
 """A batch of runs: what all share, what each has of its own, and the histories that they leave."""
 
+import json
 import math
 import time as clock
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass
+from importlib.metadata import version
 from typing import Any
 
 import numpy as np
@@ -21,6 +23,7 @@ from panelsim.loads.supplementary import Supplementary
 from panelsim.loads.wetted_surface import WettedSurface
 from panelsim.motion.equations import EquationsOfMotion, ramp_factor
 from panelsim.motion.history import History
+from panelsim.motion.known_loads import KnownLoads
 from panelsim.motion.march import Limits, MemberRecord, Progress, Record, march, require_finite_start
 from panelsim.motion.notes import run_notes
 from panelsim.motion.point_motions import with_points
@@ -89,7 +92,8 @@ class Batch:
         stepper = make_stepper(self.stepper, equations, found.known, self.time_step)
         wetted = [load for load in found.loads if isinstance(load, WettedSurface)]
         methods = wetted[0].methods if wetted else ("none",) * len(self.members)
-        identities = self._identities(equations, methods, displacement, velocity)
+        identities = self._identities(equations, found.known, methods, displacement, velocity)
+        kept_identities = [json.dumps(identity, sort_keys=True) for identity in identities]
         # The first evaluation compiles the kernel; its time is no part of the time loop.
         state = stepper.start(displacement, velocity)
         require_finite_start(state)
@@ -114,7 +118,7 @@ class Batch:
                 self.members[i],
                 run,
                 methods[i],
-                restart_group(state, i, identities[i]) if run.outcome in GOES_ON else None,
+                restart_group(state, i, kept_identities[i]) if run.outcome in GOES_ON else None,
                 before[i] + loop * run.count / rows,
                 (compiled - begin) / len(runs),
             )
@@ -124,6 +128,7 @@ class Batch:
     def _identities(
         self,
         equations: EquationsOfMotion,
+        known: KnownLoads,
         methods: Sequence[str],
         displacement: FloatArray,
         velocity: FloatArray,
@@ -131,6 +136,7 @@ class Batch:
         """What must be the same in a run that goes on, for each member, by the words for it."""
         ship, radiation = self.ship, equations.radiation
         shared = {
+            "version of panelsim": version("panelsim"),
             "ship": digest(ship.vertices, ship.mesh.panels, ship.inertia, np.array(ship.waterline)),
             "water": [ship.water_density, ship.gravity],
             "model": self.model,
@@ -140,6 +146,7 @@ class Batch:
             "ramp": self.ramp,
             "stretching": self.stretching,
             "pressure rule": self.pressure_rule,
+            "capsize angle": self.capsize_angle,
             "choice of transom terms": self.transom is not None,
             "set of supplementary terms": digest(
                 self.supplementary.stiffness_matrix, self.supplementary.damping_matrix
@@ -160,12 +167,14 @@ class Batch:
                 "roll damping": None if member.roll_damping is None else [*astuple(member.roll_damping)],
                 "initial displacement": displacement[i].tolist(),
                 "initial velocity": velocity[i].tolist(),
-                # Last: it goes with the ship and the speed, whose names say more.
+                # Last: it goes with the ship, the sea and the speed, whose names say more.
                 "set of coefficients": digest(
                     self.database.added_mass,
                     self.database.radiation_damping,
                     radiation.load_matrix[i],
                     radiation.memory_matrix[i],
+                    known.turning[i],
+                    known.amplitudes[i],
                 ),
             }
             for i, member in enumerate(self.members)

@@ -33,6 +33,7 @@ class RollDampingTerms:
         for name in ("linear", "quadratic", "cubic"):
             remedy = "a negative term drives the roll at some rate: leave it out and fit again"
             require_number(f"{name} roll damping", getattr(self, name), "N m sⁿ", low=0.0, remedy=remedy)
+            object.__setattr__(self, name, float(getattr(self, name)))
 
     @classmethod
     def of_critical(cls, ratio: float, inertia: float, stiffness: float) -> Self:
