@@ -7,7 +7,7 @@ import numpy as np
 
 from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.motion.equations import ramp_factor
-from panelsim.motion.exact import advance, harmonic_inputs
+from panelsim.motion.exact import advance, harmonic_inputs, product
 from panelsim.motion.known_loads import KnownLoads
 from panelsim.motion.linear_system import LinearSystem
 
@@ -43,7 +43,7 @@ class _Waves:
         rest, turned = time_step - until, np.exp(1j * self.turning[0] * until)
         growing, _ = self.in_step(system, until)
         after, at_end = _Waves(self.turning, grown * turned).in_step(system, rest)
-        return advance(system.matrix, rest) @ growing + after, at_end
+        return product(advance(system.matrix, rest), growing) + after, at_end
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class _Gains:
         moved, later = in_step or waves.in_step(system, time_step)
         turn = np.exp(-1j * waves.turning[0] * time_step)
         past = [waves.acceleration * turn**back for back in range(3)]
-        linear = system.matrix[6:12] @ moved + later
+        linear = product(system.matrix[6:12], moved) + later
         table = np.concatenate([moved, np.zeros_like(later), linear, *past])
         return cls(waves.turning, np.hstack([table.real, -table.imag]))
 
@@ -103,7 +103,7 @@ class WaveGains:
         last = np.arange(int(ramp / time_step) + 2) * time_step
         until = ramp - last[last < ramp].max(initial=0.0)
         for system, turning, amplitudes in zip(systems, known.turning, known.amplitudes, strict=True):
-            waves = _Waves(turning, inverse @ amplitudes)
+            waves = _Waves(turning, product(inverse, amplitudes))
             self._grown.append(_Gains.of(system, waves, time_step))
             if ramp:
                 growing = waves.ramped(ramp)
