@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from panelsim.conventions import FloatArray
+from panelsim.conventions import Dof, FloatArray
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.reach import require_waves_held
 from panelsim.hydro.roll_damping.terms import RollDampingTerms
@@ -27,9 +27,10 @@ from panelsim.motion.known_loads import KnownLoads
 from panelsim.motion.march import Limits, MemberRecord, Progress, Record, march, require_finite_start
 from panelsim.motion.notes import run_notes
 from panelsim.motion.point_motions import with_points
-from panelsim.motion.requirements import about_member, require_step_for_ship, require_step_for_waves
+from panelsim.motion.requirements import about_member, require_step_for_waves
 from panelsim.motion.restart import GOES_ON, digest, restart_group, resumed
 from panelsim.motion.run_loads import RunLoads, run_loads
+from panelsim.motion.stability import Stability
 from panelsim.motion.steppers import make_stepper
 from panelsim.motion.waves_met import wave_elevation
 from panelsim.seaway.components import WaveComponents
@@ -89,6 +90,13 @@ class Batch:
         begin = clock.process_time()
         found = self._loads()
         equations = self._equations(found.loads)
+        stability = [
+            Stability(self.stepper, equations, found.known, i, member.roll_damping)
+            for i, member in enumerate(self.members)
+        ]
+        for i, each in enumerate(stability):
+            with about_member(i, len(self.members)):
+                each.require(self.time_step)
         stepper = make_stepper(self.stepper, equations, found.known, self.time_step)
         wetted = [load for load in found.loads if isinstance(load, WettedSurface)]
         methods = wetted[0].methods if wetted else ("none",) * len(self.members)
@@ -121,6 +129,7 @@ class Batch:
                 restart_group(state, i, kept_identities[i]) if run.outcome in GOES_ON else None,
                 before[i] + loop * run.count / rows,
                 (compiled - begin) / len(runs),
+                stability[i].notes(self.time_step, run.velocity[:, Dof.ROLL]),
             )
             for i, run in enumerate(runs)
         )
@@ -201,13 +210,6 @@ class Batch:
         """The equations of motion of all members; PanelsimError where step or coefficients do not suffice."""
         ship, members = self.ship, self.members
         radiation = Radiation(self.database, [member.speed for member in members], self.transom)
-        require_step_for_ship(
-            self.time_step,
-            self.stepper,
-            ship.inertia + radiation.added_mass_infinite,
-            ship.hydrostatics.stiffness + self.supplementary.stiffness_matrix,
-            radiation.states.transition,
-        )
         for i, member in enumerate(members):
             encounter = member.waves.encounter_frequency(member.speed, ship.gravity)
             with about_member(i, len(members)):
@@ -225,12 +227,13 @@ class Batch:
         restart: xr.Dataset | None,
         cpu_seconds: float,
         jit_seconds: float,
+        notes: Sequence[str],
     ) -> History:
         time = np.arange(run.count, dtype=np.float64) * self.time_step
         factor = np.array([ramp_factor(t, self.ramp) for t in time])
         # The twin whatever the length, so that a run is bit for bit the beginning of a longer one.
         sea = TranslatingSeaway(member.waves, member.speed, self.ship.gravity, method="oracle")
-        notes = run_notes(
+        more = run_notes(
             member.waves,
             self.database,
             self.supplementary,
@@ -264,7 +267,7 @@ class Batch:
             seed=member.seed,
             cpu_seconds=cpu_seconds,
             jit_seconds=jit_seconds,
-            notes=[*self.notes, *notes],
+            notes=[*self.notes, *more, *notes],
             stepper=self.stepper,
             restart=restart,
             roll_damping=_roll_damping(member),

@@ -78,7 +78,8 @@ def harmonic_inputs(
 def product(left: FloatArray, right: Matrix) -> Matrix:
     """left @ right (n, m) of (n, k) and (k, m), the same bits whatever the number of threads."""
     rows = max(_OF_ONE_THREAD // max(right.size, 1), 1)
-    return np.concatenate([left[i : i + rows] @ right for i in range(0, len(left), rows)])
+    found: Matrix = np.concatenate([left[i : i + rows] @ right for i in range(0, len(left), rows)])
+    return found
 
 
 def _exponential(matrix: FloatArray) -> FloatArray:

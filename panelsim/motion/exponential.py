@@ -74,11 +74,11 @@ class Exponential:
         for system in systems:
             _require_followed(system, time_step)
         self._slope = np.stack([system.matrix[6:12] for system in systems])
-        self._forward = [np.stack([forward(each, time_step, order) for each in systems]) for order in range(3)]
-        self._spread = [np.stack([spread(each, time_step, order) for each in systems]) for order in range(2)]
-        self._damping = [
-            (i, load) for i, load in enumerate(equations.loads) if isinstance(load, RollDamping)
+        self._forward = [
+            np.stack([forward(each, time_step, order) for each in systems]) for order in range(3)
         ]
+        self._spread = [np.stack([spread(each, time_step, order) for each in systems]) for order in range(2)]
+        self._damping = [(i, load) for i, load in enumerate(equations.loads) if isinstance(load, RollDamping)]
         self._waves = WaveGains(systems, known, equations.inverse, equations.ramp, time_step)
 
     def start(self, displacement: FloatArray, velocity: FloatArray) -> State:

@@ -39,7 +39,7 @@ class _Waves:
     def in_step_with_end_of_ramp(
         self, system: LinearSystem, time_step: float, grown: ComplexArray, until: float
     ) -> tuple[ComplexArray, ComplexArray]:
-        """As `in_step`, but from the time `until` [s] after the beginning on the accelerations are `grown`."""
+        """As `in_step`, but from `until` [s] after the beginning on the accelerations are `grown`."""
         rest, turned = time_step - until, np.exp(1j * self.turning[0] * until)
         growing, _ = self.in_step(system, until)
         after, at_end = _Waves(self.turning, grown * turned).in_step(system, rest)
@@ -115,10 +115,8 @@ class WaveGains:
     def at(self, step: int, displacement: FloatArray) -> FloatArray:
         """(B, n + 30) of `_Gains` in the step after so many, for ships at displacements (B, 6)."""
         begin, end = step * self._time_step, (step + 1) * self._time_step
-        if begin >= self._ramp:
-            gains = self._grown
-        else:
-            gains = self._growing if end < self._ramp else self._ending
+        growing = self._growing if end < self._ramp else self._ending
+        gains = self._grown if begin >= self._ramp else growing
         waves = np.array([each.at(begin, where) for each, where in zip(gains, displacement, strict=True)])
         if 0.0 <= begin - self._ramp < 2.0 * self._time_step:  # waves that had not yet grown to the end
             for back in (1, 2):
