@@ -87,7 +87,7 @@ def _exponential(matrix: FloatArray) -> FloatArray:
 
     `scipy.linalg.expm` has other bits on another number of threads.
     """
-    doublings = int(np.ceil(np.log2(max(np.linalg.norm(matrix, 1), 1.0))))
+    doublings = int(np.ceil(np.log2(max(float(np.linalg.norm(matrix, 1)), 1.0))))
     part = matrix / 2.0**doublings
     term = gathered = np.eye(len(matrix))
     for order in range(1, _TERMS):

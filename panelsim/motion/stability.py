@@ -23,7 +23,8 @@ from panelsim.motion.requirements import LONGEST_STEP, rounded_down
 _RUNGE_KUTTA_4 = Polynomial([1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0])
 # A drift without springs has an eigenvalue of 1 twice; rounding parts the two by its root.
 _ROUNDING = 1e-5
-LARGE_ROLL = np.deg2rad(30.0)
+# Any sea worth a run rolls a ship so far. Where she rolls further her history says whether it was too far.
+ROLL = np.deg2rad(10.0)
 FASTEST_ROLL = 10.0  # rad/s; no ship rolls so, but a motion that diverges does
 
 
@@ -55,11 +56,11 @@ class Stability:
 
     @cached_property
     def _roll_rates(self) -> tuple[float, ...]:
-        """At which the roll damping is looked at [rad/s]: none, and that of a large roll."""
+        """At which the roll damping is looked at [rad/s]: none, and that of a roll of 10°."""
         if not self._grows_with_rate:
             return (0.0,)
         by_roll = -float(self._system.matrix[6 + Dof.ROLL, Dof.ROLL])
-        return 0.0, LARGE_ROLL * float(np.sqrt(max(by_roll, 0.0)))
+        return 0.0, ROLL * float(np.sqrt(max(by_roll, 0.0)))
 
     @property
     def _grows_with_rate(self) -> bool:
@@ -68,7 +69,7 @@ class Stability:
     def require(self, time_step: float) -> None:
         """Raise PanelsimError for a time step [s] that follows the ship's own motions badly, or unstably.
 
-        Quadratic and cubic roll damping is that of a roll of 30° at her natural frequency.
+        Quadratic and cubic roll damping is that of a roll of 10° at her natural frequency.
         """
         fault = self._fault(time_step)
         if fault is None:
@@ -89,7 +90,7 @@ class Stability:
             return f"with a natural period of {2 * np.pi / self._natural_frequency:.3g} s"
         for rate in self._roll_rates:
             if not self.holds(time_step, rate):
-                damping = f" with the roll damping at {rate:.2g} rad/s, a roll of 30°" if rate else ""
+                damping = f" with the roll damping at {rate:.2g} rad/s, a roll of 10°" if rate else ""
                 return f"at which {self.stepper} is unstable{damping}"
         return None
 
