@@ -447,7 +447,7 @@ TOO_SHORT = ComponentSeaway(WaveComponents(np.array([0.05]), np.array([3.0]), np
         ({"time_step": True}, "time_step is not a number"),
         ({"initial_velocity": np.zeros((6, 5))}, "initial_velocity is not that of each member"),
         ({"seaways": [*SEAS[:3], TOO_SHORT, *SEAS[:1]], "time_step": 0.4}, "Member 4 of 5: .* for the waves"),
-        ({"time_step": 2.0}, "^The time step is too long for the motions of the ship"),
+        ({"time_step": 2.0}, "Member 1 of 5: The time step is too long for the motions of the ship"),
         ({"time_step": 0.01, "duration": 5000.0}, "The runs of the batch have too many steps"),
         ({"duration": "long"}, "The duration is not a number"),
     ],

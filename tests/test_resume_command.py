@@ -1,7 +1,6 @@
 """`panelsim run --resume`: an interrupted or shorter run becomes the whole one, bit for bit, and no other."""
 
 import json
-import os
 import shlex
 import shutil
 import signal
@@ -97,7 +96,9 @@ def interrupted_at(seconds: float) -> Iterator[list[float]]:
                 if label == "run":
                     told.append(done)
                     if done >= seconds - 1e-9:
-                        os.kill(os.getpid(), signal.SIGINT)
+                        # To this thread: the system may give a signal of the process to any thread,
+                        # and this one hears of it too late.
+                        signal.raise_signal(signal.SIGINT)
 
             return update
 

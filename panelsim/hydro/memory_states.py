@@ -33,6 +33,7 @@ _CHUNK = 300  # rows
 _ORDERS = range(12, 33, 4)
 _WANTED_ERROR = 0.001  # of the peaks of R
 _ALLOWED_ERROR = 0.01
+_SLOWEST = np.exp(-1.0)  # left at the end of the memory
 # A motion that radiates less than this part of the strongest has no memory, as surge in strip theory.
 _SMALLEST_PEAK = 1e-9
 
@@ -161,7 +162,7 @@ def _candidates(time: FloatArray, kernel: FloatArray) -> Iterator[tuple[FloatArr
             root = np.sqrt(size[:order])
             step = later[:order, :order] / np.outer(root, root)
             first = root[:, None] * right[:order, : kernel.shape[1]]
-            yield _modes(step, first, time[pencil.step] - time[0])
+            yield _modes(step, first, time[pencil.step] - time[0], time[-1])
 
 
 def _hankel(kernel: FloatArray, pencil: _Pencil, shift: int) -> FloatArray:
@@ -174,14 +175,21 @@ def _hankel(kernel: FloatArray, pencil: _Pencil, shift: int) -> FloatArray:
     return blocks.transpose(0, 2, 1, 3).reshape(side, side)
 
 
-def _modes(step: FloatArray, first: FloatArray, interval: float) -> tuple[FloatArray, FloatArray]:
-    """Decaying poles [1/s], of a pair the upper one, and the rows by which a velocity enters them."""
+def _modes(
+    step: FloatArray, first: FloatArray, interval: float, length: float
+) -> tuple[FloatArray, FloatArray]:
+    """Decaying poles [1/s], of a pair the upper one, and the rows by which a velocity enters them.
+
+    `interval` [s] of a step, `length` [s] of the memory.
+    """
     multiplier, vectors = np.linalg.eig(step)
     rows = np.linalg.solve(vectors, first.astype(complex))
     size = np.linalg.norm(rows, axis=1)
     # No sampled exponential turns by half a turn between samples; what seems to, or grows, is noise.
     kept = (np.abs(multiplier) < 1.0) & (multiplier.imag >= 0.0) & (size > 0.0)
     kept &= (multiplier.imag > 0.0) | (multiplier.real > 0.0)
+    # What hardly falls while there is a memory would go on long after it.
+    kept &= np.abs(multiplier) ** (length / interval) < _SLOWEST
     return np.log(multiplier[kept].astype(complex)) / interval, rows[kept] / size[kept, None]
 
 

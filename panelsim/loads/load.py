@@ -37,7 +37,7 @@ class Load(Protocol):
 def times_each(matrix: FloatArray, vectors: FloatArray) -> FloatArray:
     """The matrix (n, m), or one for each vector (B, n, m), times vectors (B, m): (B, n).
 
-    Each product is done as if it were alone: one product of two matrices would round a vector
-    differently beside others.
+    Each number is a dot product by itself: one product of two matrices would round a vector differently
+    beside others, and a large matrix times a vector differently on another number of threads.
     """
-    return np.matmul(matrix, vectors[..., None])[..., 0]
+    return np.vecdot(matrix, vectors[..., None, :])

@@ -27,12 +27,24 @@ class RollDamping:
 
     def evaluate(self, instant: Instant) -> FloatArray:
         """The load (B, 6) [N, N m]."""
-        rate = instant.velocity[:, Dof.ROLL]
-        size = np.abs(rate)
-        linear, quadratic, cubic = self._terms.T
-        load = np.zeros_like(instant.velocity)
-        load[:, Dof.ROLL] = -rate * (linear + size * (quadratic + size * cubic))
+        load = self.beside_slope(instant.velocity)
+        load[:, Dof.ROLL] -= self._terms[:, 0] * instant.velocity[:, Dof.ROLL]
         return load
+
+    def beside_slope(self, velocity: FloatArray) -> FloatArray:
+        """The load (B, 6) by the quadratic and cubic terms at velocities (B, 6)."""
+        rate = velocity[:, Dof.ROLL]
+        size = np.abs(rate)
+        load = np.zeros_like(velocity)
+        load[:, Dof.ROLL] = -rate * size * (self._terms[:, 1] + size * self._terms[:, 2])
+        return load
+
+    def slope_beside(self, rate: float) -> FloatArray:
+        """Derivatives of `beside_slope` (B, 6, 6) by velocity at a roll rate [rad/s]."""
+        size = abs(rate)
+        slope = np.zeros((len(self._terms), 6, 6))
+        slope[:, Dof.ROLL, Dof.ROLL] = -size * (2.0 * self._terms[:, 1] + 3.0 * size * self._terms[:, 2])
+        return slope
 
 
 def require_linear_terms(terms: RollDampingTerms) -> None:

@@ -1,15 +1,17 @@
 """A batch of runs: what all share, what each has of its own, and the histories that they leave."""
 
+import json
 import math
 import time as clock
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass
+from importlib.metadata import version
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from panelsim.conventions import FloatArray
+from panelsim.conventions import Dof, FloatArray
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.reach import require_waves_held
 from panelsim.hydro.roll_damping.terms import RollDampingTerms
@@ -21,12 +23,14 @@ from panelsim.loads.supplementary import Supplementary
 from panelsim.loads.wetted_surface import WettedSurface
 from panelsim.motion.equations import EquationsOfMotion, ramp_factor
 from panelsim.motion.history import History
+from panelsim.motion.known_loads import KnownLoads
 from panelsim.motion.march import Limits, MemberRecord, Progress, Record, march, require_finite_start
 from panelsim.motion.notes import run_notes
 from panelsim.motion.point_motions import with_points
-from panelsim.motion.requirements import about_member, require_step_for_ship, require_step_for_waves
+from panelsim.motion.requirements import about_member, require_step_for_waves
 from panelsim.motion.restart import GOES_ON, digest, restart_group, resumed
 from panelsim.motion.run_loads import RunLoads, run_loads
+from panelsim.motion.stability import Stability
 from panelsim.motion.steppers import make_stepper
 from panelsim.motion.waves_met import wave_elevation
 from panelsim.seaway.components import WaveComponents
@@ -86,10 +90,18 @@ class Batch:
         begin = clock.process_time()
         found = self._loads()
         equations = self._equations(found.loads)
+        stability = [
+            Stability(self.stepper, equations, found.known, i, member.roll_damping)
+            for i, member in enumerate(self.members)
+        ]
+        for i, each in enumerate(stability):
+            with about_member(i, len(self.members)):
+                each.require(self.time_step)
         stepper = make_stepper(self.stepper, equations, found.known, self.time_step)
         wetted = [load for load in found.loads if isinstance(load, WettedSurface)]
         methods = wetted[0].methods if wetted else ("none",) * len(self.members)
-        identities = self._identities(equations, methods, displacement, velocity)
+        identities = self._identities(equations, found.known, methods, displacement, velocity)
+        kept_identities = [json.dumps(identity, sort_keys=True) for identity in identities]
         # The first evaluation compiles the kernel; its time is no part of the time loop.
         state = stepper.start(displacement, velocity)
         require_finite_start(state)
@@ -114,9 +126,10 @@ class Batch:
                 self.members[i],
                 run,
                 methods[i],
-                restart_group(state, i, identities[i]) if run.outcome in GOES_ON else None,
+                restart_group(state, i, kept_identities[i]) if run.outcome in GOES_ON else None,
                 before[i] + loop * run.count / rows,
                 (compiled - begin) / len(runs),
+                stability[i].notes(self.time_step, run.velocity[:, Dof.ROLL]),
             )
             for i, run in enumerate(runs)
         )
@@ -124,6 +137,7 @@ class Batch:
     def _identities(
         self,
         equations: EquationsOfMotion,
+        known: KnownLoads,
         methods: Sequence[str],
         displacement: FloatArray,
         velocity: FloatArray,
@@ -131,6 +145,7 @@ class Batch:
         """What must be the same in a run that goes on, for each member, by the words for it."""
         ship, radiation = self.ship, equations.radiation
         shared = {
+            "version of panelsim": version("panelsim"),
             "ship": digest(ship.vertices, ship.mesh.panels, ship.inertia, np.array(ship.waterline)),
             "water": [ship.water_density, ship.gravity],
             "model": self.model,
@@ -140,6 +155,7 @@ class Batch:
             "ramp": self.ramp,
             "stretching": self.stretching,
             "pressure rule": self.pressure_rule,
+            "capsize angle": self.capsize_angle,
             "choice of transom terms": self.transom is not None,
             "set of supplementary terms": digest(
                 self.supplementary.stiffness_matrix, self.supplementary.damping_matrix
@@ -160,12 +176,14 @@ class Batch:
                 "roll damping": None if member.roll_damping is None else [*astuple(member.roll_damping)],
                 "initial displacement": displacement[i].tolist(),
                 "initial velocity": velocity[i].tolist(),
-                # Last: it goes with the ship and the speed, whose names say more.
+                # Last: it goes with the ship, the sea and the speed, whose names say more.
                 "set of coefficients": digest(
                     self.database.added_mass,
                     self.database.radiation_damping,
                     radiation.load_matrix[i],
                     radiation.memory_matrix[i],
+                    known.turning[i],
+                    known.amplitudes[i],
                 ),
             }
             for i, member in enumerate(self.members)
@@ -192,13 +210,6 @@ class Batch:
         """The equations of motion of all members; PanelsimError where step or coefficients do not suffice."""
         ship, members = self.ship, self.members
         radiation = Radiation(self.database, [member.speed for member in members], self.transom)
-        require_step_for_ship(
-            self.time_step,
-            self.stepper,
-            ship.inertia + radiation.added_mass_infinite,
-            ship.hydrostatics.stiffness + self.supplementary.stiffness_matrix,
-            radiation.states.transition,
-        )
         for i, member in enumerate(members):
             encounter = member.waves.encounter_frequency(member.speed, ship.gravity)
             with about_member(i, len(members)):
@@ -216,12 +227,13 @@ class Batch:
         restart: xr.Dataset | None,
         cpu_seconds: float,
         jit_seconds: float,
+        notes: Sequence[str],
     ) -> History:
         time = np.arange(run.count, dtype=np.float64) * self.time_step
         factor = np.array([ramp_factor(t, self.ramp) for t in time])
         # The twin whatever the length, so that a run is bit for bit the beginning of a longer one.
         sea = TranslatingSeaway(member.waves, member.speed, self.ship.gravity, method="oracle")
-        notes = run_notes(
+        more = run_notes(
             member.waves,
             self.database,
             self.supplementary,
@@ -255,7 +267,7 @@ class Batch:
             seed=member.seed,
             cpu_seconds=cpu_seconds,
             jit_seconds=jit_seconds,
-            notes=[*self.notes, *notes],
+            notes=[*self.notes, *more, *notes],
             stepper=self.stepper,
             restart=restart,
             roll_damping=_roll_damping(member),

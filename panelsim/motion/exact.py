@@ -1,21 +1,27 @@
 """Exact steps of a linear system ẏ = S y + G u(t): the free motion, and inputs that are known in time."""
 
 from collections.abc import Sequence
+from typing import TypeVar
 
 import numpy as np
-from scipy.linalg import expm, matrix_balance
+from scipy.linalg import matrix_balance
 
 from panelsim.conventions import ComplexArray, FloatArray
+
+Matrix = TypeVar("Matrix", FloatArray, ComplexArray)
 
 # Of the series over a part of the step in which neither system nor wave turns by more than a radian: 1/20! is
 # below rounding.
 _TERMS = 20
+# Multiplications up to which the linear algebra takes one thread. The bits of larger products depend on how
+# many threads it has.
+_OF_ONE_THREAD = 200_000
 
 
 def advance(system: FloatArray, time_step: float) -> FloatArray:
     """exp(S h) (n, n): y(t + h) = exp(S h) y(t) without an input."""
     balanced, scale = _balanced(system)
-    return scale[:, None] * expm(balanced * time_step) / scale
+    return scale[:, None] * _exponential(balanced * time_step) / scale
 
 
 def polynomial_inputs(
@@ -33,7 +39,7 @@ def polynomial_inputs(
     augmented[:n, n : n + m] = entrance / scale[:, None] * time_step
     ahead = np.arange(n, n + (count - 1) * m)
     augmented[ahead, ahead + m] = 1.0
-    of_power = scale[:, None] * expm(augmented)[:n, n:]  # for u = (s/h)^p / p!
+    of_power = scale[:, None] * _exponential(augmented)[:n, n:]  # for u = (s/h)^p / p!
     share = np.array(nodes, dtype=float)
     factorial = np.cumprod([1.0, *range(1, count)])
     of_sample = np.linalg.inv(np.vander(share, increasing=True)) * factorial[:, None]
@@ -58,15 +64,38 @@ def harmonic_inputs(
     term: ComplexArray = np.zeros(inputs.shape, dtype=complex)
     gathered: ComplexArray = term.copy()
     for order in range(_TERMS):
-        term = (part * balanced @ term + driven) / (order + 1)
+        term = (product(part * balanced, term) + driven) / (order + 1)
         gathered += term
         driven *= 1j * frequency * part / (order + 1)
-    decay = expm(balanced * part)
+    decay = _exponential(balanced * part)
     for _ in range(doublings):
-        gathered = decay @ gathered + gathered * np.exp(1j * frequency * part)
-        decay = decay @ decay
+        gathered = product(decay, gathered) + gathered * np.exp(1j * frequency * part)
+        decay = product(decay, decay)
         part *= 2.0
     return scale[:, None] * gathered
+
+
+def product(left: FloatArray, right: Matrix) -> Matrix:
+    """left @ right (n, m) of (n, k) and (k, m), the same bits whatever the number of threads."""
+    rows = max(_OF_ONE_THREAD // max(right.size, 1), 1)
+    found: Matrix = np.concatenate([left[i : i + rows] @ right for i in range(0, len(left), rows)])
+    return found
+
+
+def _exponential(matrix: FloatArray) -> FloatArray:
+    """exp of a matrix (n, n) by its Taylor series on a small part, squared until it is whole.
+
+    `scipy.linalg.expm` has other bits on another number of threads.
+    """
+    doublings = int(np.ceil(np.log2(max(float(np.linalg.norm(matrix, 1)), 1.0))))
+    part = matrix / 2.0**doublings
+    term = gathered = np.eye(len(matrix))
+    for order in range(1, _TERMS):
+        term = product(part, term) / order
+        gathered = gathered + term
+    for _ in range(doublings):
+        gathered = product(gathered, gathered)
+    return gathered
 
 
 def _balanced(system: FloatArray) -> tuple[FloatArray, FloatArray]:

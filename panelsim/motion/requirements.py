@@ -1,6 +1,7 @@
 """What a run must have before it is begun: values in range, and a time step that can carry it."""
 
 import json
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
@@ -19,13 +20,11 @@ from panelsim.ship.ship import require_ship
 MODELS = ("nonlinear", "linear")
 INERTIAS = ("large", "linear")
 MOST_STEPS = 2_000_000  # a run keeps some 600 bytes a step, 1000 while its history is made
-# The longest step of each scheme over the highest natural frequency of the ship. RK4 stays stable to
-# ω dt = 2.83, but at 2 it takes a quarter off a motion with every step; AB3 is stable to 0.72. The
+# The longest step of each scheme over the highest natural frequency of the ship, whatever her damping. RK4 is
+# stable to ω dt = 2.83, but at 2 it takes a quarter off a motion with every step; AB3 is stable to 0.72. The
 # exponential scheme is stable, but what is not linear is off by a tenth or more from 1.5 on
-# (reports/steppers.md).
+# (reports/steppers.md). Whether the damped motions are stable is asked by `Stability`.
 LONGEST_STEP = {"exponential": 1.5, "rk4": 2.0, "ab3": 0.7}
-# RK4 advances the memory of the waves as well, and is stable to 2.78 times its fastest decay.
-LONGEST_OF_MEMORY = {"rk4": 2.5}
 # Two samples a period are the least that can show a wave at all.
 LEAST_SAMPLES = np.pi
 ENERGY_THAT_COUNTS = 0.05
@@ -119,29 +118,10 @@ def _require_between(name: str, value: float, low: float, high: float, unit: str
         raise PanelsimError(f"The {name} is out of range", got=f"{value:g} {unit}", allowed=allowed)
 
 
-def require_step_for_ship(
-    time_step: float, stepper: str, inertia: FloatArray, stiffness: FloatArray, memory: FloatArray
-) -> None:
-    """Raise PanelsimError where the step [s] of this scheme is too long for the ship's own motions.
-
-    `inertia` M + A∞ and `stiffness` with the supplementary terms (6, 6), `memory` the transition matrix of
-    the memory of the radiated waves (n, n) [1/s].
-    """
-    squared = np.linalg.eigvals(np.linalg.solve(inertia, stiffness)).real
-    natural = float(np.sqrt(max(squared.max(), 0.0)))
-    fastest = float(np.abs(np.linalg.eigvals(memory)).max())
-    allowed = min(
-        LONGEST_STEP[stepper] / natural if natural else np.inf,
-        LONGEST_OF_MEMORY.get(stepper, np.inf) / fastest,
-    )
-    if time_step > allowed:
-        period = 2 * np.pi / natural if natural else np.inf
-        raise PanelsimError(
-            "The time step is too long for the motions of the ship",
-            got=f"{time_step:g} s, with a natural period of {period:.3g} s",
-            allowed=f"at most {allowed:.2g} s with the stepper {stepper}",
-            remedy="shorten run.time_step; a tenth of the natural period is accurate",
-        )
+def rounded_down(value: float) -> str:
+    """A number above 0 as text of two digits, not above it: what is told as the longest must be allowed."""
+    digits = 1 - math.floor(math.log10(value))
+    return f"{math.floor(value * 10.0**digits) / 10.0**digits:.2g}"
 
 
 def require_step_for_waves(time_step: float, components: WaveComponents, encounter: FloatArray) -> None:
@@ -151,7 +131,7 @@ def require_step_for_waves(time_step: float, components: WaveComponents, encount
         raise PanelsimError(
             "The time step is too long for the waves that the ship meets",
             got=f"{time_step:g} s; {100 * share:.0f} % of the wave energy passes in less than two steps",
-            allowed=f"at most {LEAST_SAMPLES / np.abs(encounter).max():.2g} s for all of it",
+            allowed=f"at most {rounded_down(LEAST_SAMPLES / np.abs(encounter).max())} s for all of it",
             remedy="shorten run.time_step",
         )
 

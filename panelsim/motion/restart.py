@@ -30,14 +30,15 @@ def digest(*arrays: NDArray[Any]) -> str:
     return found.hexdigest()[:16]
 
 
-def restart_group(state: State, member: int, identity: dict[str, Any]) -> xr.Dataset:
-    """What the history of a member keeps beside its rows: the rest of the last state, and what run it is."""
+def restart_group(state: State, member: int, identity: str) -> xr.Dataset:
+    """What the history of a member keeps beside its rows: the rest of the last state, and what run it is, as
+    JSON."""
     return xr.Dataset(
         {
             "motion": ("motion_state", state.motion[member].copy(), {"units": "SI"}),
             "past": ("past_state", state.past[member].copy(), {"units": "SI"}),
         },
-        attrs={"restart_format": RESTART_FORMAT, "identity": json.dumps(identity, sort_keys=True)},
+        attrs={"restart_format": RESTART_FORMAT, "identity": identity},
     )
 
 

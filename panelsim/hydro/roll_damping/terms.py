@@ -35,6 +35,7 @@ class RollDampingTerms:
             negative = is_number(value) and value < 0.0
             remedy = "a negative term drives the roll at some rate: leave it out and fit again"
             require_number(f"{name} roll damping", value, unit, low=0.0, remedy=remedy if negative else None)
+            object.__setattr__(self, name, float(value))
 
     @classmethod
     def of_critical(cls, ratio: float, inertia: float, stiffness: float) -> Self:

@@ -59,8 +59,9 @@ class Strips:
         """A + B/(iω) (F + 1, 6, 6) = ∫ Eᵀ (a + b/(iω)) E dx of the ship about the origin of ship axes."""
         motion = np.array([section_motion(x) for x in self.middle])
         length = self.sections.strip_length
+        # Not optimised into matrix products: their bits would depend on the number of threads.
         whole: ComplexArray = np.einsum(
-            "s,sai,fsab,sbj->fij", length, motion, self.section_inertia, motion, optimize=True
+            "s,sai,fsab,sbj->fij", length, motion, self.section_inertia, motion, optimize=False
         )
         return whole
 
