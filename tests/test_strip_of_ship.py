@@ -113,7 +113,7 @@ def test_a_form_without_the_area_of_its_section_is_noted() -> None:
     ship = ship_of("s175")
     cut = sections_of_mesh(ship.vertices, ship.mesh.panels, ship.waterline, 21)
     forms, note = lewis_forms(cut)
-    assert note.startswith("No Lewis form has the area of the sections at x = -76.")
+    assert note.startswith("No Lewis form has the area of the sections at x = -73.")
     assert [i for i in range(21) if abs(forms[i].area / cut.sections[i].area - 1.0) > 1e-9] == [1]
     ended = HullSections(cut.sections[:6], cut.aft_end, 0.5 * float(cut.x[5] + cut.x[6]))
     data = solve_strips(ended, **WATER, frequencies=np.array([0.0, 0.5, 1.0, 1.5, 2.0]), section_form="lewis")
@@ -262,3 +262,17 @@ def test_cut_sections_are_those_of_the_ship() -> None:
     for name in ("s175", "frigate"):
         ship = ship_of(name)
         require_sections_of(ship, sections_of_mesh(ship.vertices, ship.mesh.panels, ship.waterline, 11))
+
+
+def test_a_hull_with_a_bulb_under_water_is_symmetric() -> None:
+    angle = np.linspace(0.3, 0.3 + 2.0 * np.pi, 41)[:-1]
+    angle = np.sort(np.mod(np.concatenate([angle, np.pi - angle]), 2.0 * np.pi))
+    bulb = np.stack([np.cos(angle), np.sin(angle) - 2.5], axis=1)
+    box = np.array([[-2.0, 0.0], [-2.0, -3.0], [2.0, -3.0], [2.0, 0.0]])
+    outlines = [box] * 5 + [np.vstack([bulb, bulb[:1]])]
+    sections = tuple(Section(x, outline, 0.0) for x, outline in zip(range(-10, 14, 4), outlines, strict=True))
+    data = solve_strips(
+        HullSections(sections, -12.0, 12.0), **WATER, frequencies=np.array([0.0, 0.5, 1.0, 1.5, 2.0])
+    )
+    assert data.attrs["half_hull"] == data.attrs["mirror_symmetric"] == 1
+    assert data.attrs["port_starboard_coupling"] < 1e-9

@@ -35,9 +35,12 @@ def diffraction_load(
     Complex amplitude with exp(+iω_e t), ω_e signed, on the ship's mean position in ship axes, the phase that
     of a crest at the centre of gravity at t = 0. With a `transom`, less U times the momentum per metre that
     leaves there, the end terms of Salvesen, Tuck and Faltinsen (1970). Raises PanelsimError for a frequency
-    not above 0 and, without potentials, for waves that the tables of the database do not cover.
+    not above 0, for the transom of another hull and, without potentials, for waves that the tables of the
+    database do not cover.
     """
     omega, heading = _components(frequency, wave_heading)
+    if transom is not None:
+        transom.require_hull_of(database)
     momentum = diffraction_momentum(database, omega, heading, speed)
     encounter = encounter_frequency(omega, heading, speed, database.gravity)
     load = -1j * encounter[:, None] * momentum
