@@ -263,7 +263,7 @@ def test_half_hull_gives_the_load_of_the_whole(solved: Solved, monkeypatch: pyte
 
 
 def test_gauss_points_are_those_of_the_rule() -> None:
-    """∫ x² dA over a flat panel of 2 by 2 m about its middle is 4/3, and ∫ x² y² dA 4/9: two points a side."""
+    """∫ x² dA over a flat panel of 2 by 2 m about its middle is 4/3, and ∫ x² y² dA 4/9."""
     corners = np.array([[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]]])
     points, areas = diffraction._gauss_points(corners)
     x, y, area = points[0, :, 0], points[0, :, 1], np.abs(areas[0, :, 2])

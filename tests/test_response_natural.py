@@ -53,9 +53,9 @@ def test_a_sphere_heaves_as_a_sphere() -> None:
 
 
 def test_the_damping_ratio_is_over_the_size_of_the_root() -> None:
-    """For (M + A) s² + B s + C = 0 at the frequency of the mode: ζ = B/(2√((M + A) C)), and T of √(C/(M + A)).
+    """For (M + A) s² + B s + C = 0 at the frequency of the mode ζ = B/(2√((M + A) C)), T = 2π√((M + A)/C).
 
-    A half sphere heaves alone, with ζ of 0.2: over Im(s) it would be 2 % more.
+    A half sphere heaves alone, with ζ of 0.084: over Im(s) it would be 0.35 % more.
     """
     ship = load_ship("sphere")
     database = database_for(ship)
@@ -67,7 +67,7 @@ def test_the_damping_ratio_is_over_the_size_of_the_root() -> None:
     stiffness = ship.hydrostatics.stiffness[2, 2]
     assert mode.damping_ratio == pytest.approx(damping / (2.0 * np.sqrt(mass * stiffness)), rel=1e-6)
     assert mode.period == pytest.approx(2.0 * np.pi * np.sqrt(mass / stiffness), rel=1e-6)
-    assert mode.damping_ratio > 0.1
+    assert mode.damping_ratio > 0.05
 
 
 def test_a_decay_shows_the_period_and_ratio(halifax: Ship, halifax_database: HydroDatabase) -> None:

@@ -54,10 +54,10 @@ def test_tables_reach_to_where_their_steps_are_too_wide(tables: HydroDatabase) -
 
 
 def test_steps_of_frequency_end_the_reach_too(tables: HydroDatabase) -> None:
-    sparse = HydroDatabase(tables.dataset.isel(wave_frequency=[*range(17), 19, 21, 23, 24]))
-    # From 1.0 on 0.1 rad/s apart, good to 2 g / (0.1 L) = 1.57: all is held; 0.15 apart it is 1.05.
+    sparse = HydroDatabase(tables.dataset.isel(wave_frequency=[*range(17), 18, 20, 22, 24]))
+    # From 1.0 on 0.1 rad/s apart, good to 2 g / (0.1 L) = 1.58: all is held; 0.15 apart it is 1.05.
     assert highest_covered(sparse, None) == pytest.approx(highest_covered(tables, None))
-    sparser = HydroDatabase(tables.dataset.isel(wave_frequency=[*range(17), 20, 23]))
+    sparser = HydroDatabase(tables.dataset.isel(wave_frequency=[*range(17), 19, 22]))
     assert highest_covered(sparser, None) == WAVES[16]
 
 
@@ -73,9 +73,9 @@ def test_a_course_between_the_headings_of_a_table_is_answered(
     given = {"wave_headings": np.radians([45.0]), "spreading": spreading}
     found = solved(halifax, tables, springs).in_sea(SEA, **given)
     whole = solved(halifax, halifax_database, springs).in_sea(SEA, **given)
-    assert found.attrs["energy_share"] == pytest.approx(
-        SEA.energy_between(0.2, highest_covered(tables, None))
-    )
+    held = SEA.energy_between(0.2, highest_covered(tables, None))
+    # Below, a hundred-thousandth is left out of any sea.
+    assert found.attrs["energy_share"] == pytest.approx(held, abs=2e-5)
     assert 0.9 < found.attrs["energy_share"] < 0.99
     left_out = 100.0 * (1.0 - found.attrs["energy_share"])
     assert found.attrs["notes"].startswith(f"{left_out:.2g} % of the energy of the sea is left out")
