@@ -262,6 +262,15 @@ def test_half_hull_gives_the_load_of_the_whole(solved: Solved, monkeypatch: pyte
     assert shares(one - other, other).max() < 0.01
 
 
+def test_gauss_points_are_those_of_the_rule() -> None:
+    """∫ x² dA over a flat panel of 2 by 2 m about its middle is 4/3, and ∫ x² y² dA 4/9."""
+    corners = np.array([[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]]])
+    points, areas = diffraction._gauss_points(corners)
+    x, y, area = points[0, :, 0], points[0, :, 1], np.abs(areas[0, :, 2])
+    assert area @ x**2 == pytest.approx(4.0 / 3.0, rel=1e-12)
+    assert area @ (x * y) ** 2 == pytest.approx(4.0 / 9.0, rel=1e-12)
+
+
 def test_gauss_points_keep_area_and_volume_of_a_warped_panel() -> None:
     corners = np.array([[[0.0, 0.0, 0.0], [2.0, 0.1, 0.3], [2.2, 1.5, -0.2], [0.1, 1.2, 0.4]]])
     points, areas = diffraction._gauss_points(corners)

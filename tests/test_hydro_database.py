@@ -11,7 +11,8 @@ from panelsim.errors import PanelsimError
 from panelsim.hull.form import hull_folder, load_hull
 from panelsim.hull.refine import subdivided
 from panelsim.hydro.bem import highest_resolved_frequency
-from panelsim.hydro.database import HydroDatabase, _panelled_for_solution, frequency_grid
+from panelsim.hydro.database import HydroDatabase, _panelled_for_solution
+from panelsim.hydro.frequency_grids import frequency_grid
 from panelsim.hydro.memory import memory_functions
 from panelsim.hydro.store import STORED_NAME
 from panelsim.ship.bundled import load_ship

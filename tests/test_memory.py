@@ -10,7 +10,8 @@ from scipy.linalg import expm
 from panelsim.conventions import DOF_NAMES, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.conditioning import pair_scale
-from panelsim.hydro.database import HydroDatabase, frequency_grid
+from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.frequency_grids import frequency_grid
 from panelsim.hydro.memory import MemoryFunctions, memory_functions
 from panelsim.hydro.memory_states import MemoryStates, memory_states
 from panelsim.hydro.retardation import fourier_integral

@@ -342,6 +342,11 @@ def test_a_point_at_the_side_rides_long_waves(halifax: Ship, halifax_database: H
                 halifax, halifax_database, frequencies=[0.1], wave_headings=[beta], speeds=[speed]
             ).at((x + 55.0, 5.0, z))
             assert abs(long.transfer[0, 0, 0, -1]) < 0.03
+    abeam = response(halifax, halifax_database, frequencies=[2.2], wave_headings=[2.0], speeds=[0.0])
+    away = abeam.at((x + 30.0, 6.0, z)).transfer[0, 0, 0, -1]
+    phase = 2.2**2 / halifax.gravity * (30.0 * np.cos(2.0) - 6.0 * np.sin(2.0))
+    # A tenth of the wave moves her in sway and roll; from the other side the phase would be 5.4 rad off.
+    assert away == pytest.approx(-np.exp(-1j * phase), abs=0.15)
     short = response(halifax, halifax_database, frequencies=[2.2], wave_headings=[np.pi], speeds=[0.0])
     k = 2.2**2 / halifax.gravity
     relative = short.at((x + 55.0, 0.0, z)).transfer[0, 0, 0, -1]

@@ -52,6 +52,24 @@ def test_a_sphere_heaves_as_a_sphere() -> None:
     assert mode.period == pytest.approx(expected, rel=0.03)
 
 
+def test_the_damping_ratio_is_over_the_size_of_the_root() -> None:
+    """For (M + A) s² + B s + C = 0 at the frequency of the mode ζ = B/(2√((M + A) C)), T = 2π√((M + A)/C).
+
+    A half sphere heaves alone, with ζ of 0.084: over Im(s) it would be 0.35 % more.
+    """
+    ship = load_ship("sphere")
+    database = database_for(ship)
+    mode = natural_periods(ship, database)["heave"]
+    assert mode is not None
+    omega = 2.0 * np.pi / mode.damped_period
+    inertia = complex_inertia(database, np.array([omega]))[0, 2, 2]
+    mass, damping = ship.inertia[2, 2] + inertia.real, -omega * inertia.imag
+    stiffness = ship.hydrostatics.stiffness[2, 2]
+    assert mode.damping_ratio == pytest.approx(damping / (2.0 * np.sqrt(mass * stiffness)), rel=1e-6)
+    assert mode.period == pytest.approx(2.0 * np.pi * np.sqrt(mass / stiffness), rel=1e-6)
+    assert mode.damping_ratio > 0.05
+
+
 def test_a_decay_shows_the_period_and_ratio(halifax: Ship, halifax_database: HydroDatabase) -> None:
     """Linear roll decay from 0.05 rad with a roll damper: period to 0.5 %, damping to 2 %.
 

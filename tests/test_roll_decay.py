@@ -95,6 +95,26 @@ def test_noise_averages_out() -> None:
     np.testing.assert_allclose([fit.damping_ratio for fit in fits], 0.03, rtol=0.06)
 
 
+def test_standard_errors_are_the_scatter_of_the_fits() -> None:
+    """Two cycles with 0.6° of noise, 40 seeds: b1 alone is then hardly known, and the fit says so."""
+    time, roll = decay(0.03, 0.3)
+    short = time < 2.2 * PERIOD
+    time, roll = time[short], roll[short]
+    noise = np.deg2rad(0.6) * np.random.default_rng(5).standard_normal((40, len(time)))
+    fits = [fit_roll_decay(time, roll + one) for one in noise]
+    inner = [fit for fit in fits if fit.linear > 0.0 and fit.quadratic > 0.0]
+    assert len(inner) > 20
+    for value, error in (("period", "period_error"), ("linear", "linear_error")):
+        told = np.mean([getattr(fit, error) for fit in inner])
+        # Bounds at 0 cut the scatter of the damping, 40 seeds tell it to a tenth.
+        ratio = np.std([getattr(fit, value) for fit in fits]) / told
+        print(value, ratio, told)
+        assert 0.5 < ratio < 1.5
+    clean = fit_roll_decay(time, roll)
+    assert clean.linear_error < 1e-6 and clean.period_error < 1e-5
+    assert np.mean([fit.linear_error for fit in inner]) > 0.1 * clean.linear
+
+
 def test_simulation_is_the_better_fit() -> None:
     """Why the extinction curve is only the start: its coefficients are 2 to 4 % off on a clean record."""
     record = decay(0.03, 0.3)
@@ -105,7 +125,7 @@ def test_simulation_is_the_better_fit() -> None:
 
 def test_terms_and_equivalent_ratio_agree() -> None:
     """b_eq/(2 √(I C)) of the terms, in regular rolling of 10 degrees at the natural period."""
-    fit = RollDecay(9.0, 0.04, 0.3, 0.0, 0.0, 0.0, 10)
+    fit = RollDecay(9.0, 0.04, 0.3, 0.0, 0.0, 0.0, 10, 0.0, 0.0, 0.0)
     inertia, amplitude = 1.3e8, np.deg2rad(10.0)
     terms = fit.terms(inertia)
     assert terms == RollDampingTerms(0.04 * inertia, 0.3 * inertia, 0.0)

@@ -1,5 +1,6 @@
 """The table of Salvesen, Tuck and Faltinsen element by element, and the motions that follow from it."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -16,6 +17,7 @@ from panelsim.hydro.speed_terms import radiation_at_speed, salvesen_tuck_faltins
 from panelsim.hydro.store import database_for
 from panelsim.hydro.transom import Transom
 from panelsim.loads.froude_krylov import froude_krylov_transfer
+from panelsim.response.response import response as solve_response
 from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.dispersion import encounter_frequency
 from panelsim.ship.bundled import load_ship
@@ -253,6 +255,24 @@ def test_heave_and_pitch_of_strips_follow_those_of_panels_at_speed() -> None:
 
 
 SOURCE_NAMES = ("strip", "bem")
+
+
+def test_a_transom_of_another_hull_is_refused() -> None:
+    """One at the same place too: the hull is known by its fingerprint."""
+    _, database, transom = frigate("bem")
+    other = replace(transom, fingerprint="that of another hull")
+    wave = np.array([0.6])
+    with pytest.raises(PanelsimError, match="different hulls") as refused:
+        diffraction_load(database, wave, wave, SPEED, other)
+    assert transom.fingerprint in str(refused.value) and "Transom.of_ship" in str(refused.value)
+    with pytest.raises(PanelsimError, match="different hulls"):
+        radiation_at_speed(database, wave, SPEED, other)
+    ship = frigate("bem")[0]
+    transom.require_for(ship)
+    with pytest.raises(PanelsimError, match="another ship than"):
+        other.require_for(ship)
+    with pytest.raises(PanelsimError, match="another ship than"):
+        solve_response(ship, database, frequencies=wave, wave_headings=[2.0], speeds=[SPEED], transom=other)
 
 
 def test_a_hull_without_a_transom_is_told_so() -> None:

@@ -13,9 +13,10 @@ from panelsim.cli.commands import call
 from panelsim.conventions import Dof
 from panelsim.errors import PanelsimError
 from panelsim.hull.panel_mesh import PanelMesh
-from panelsim.hydro.database import HydroDatabase, frequency_grid, strip_frequency_grid
+from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.diffraction import diffraction_momentum
 from panelsim.hydro.exchange.coverage import coverage
+from panelsim.hydro.frequency_grids import frequency_grid, strip_frequency_grid
 from panelsim.hydro.interpolation import at_frequency
 from panelsim.hydro.memory import memory_functions
 from panelsim.hydro.store import database_for

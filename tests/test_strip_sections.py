@@ -1,5 +1,7 @@
 """Sections of a ship: cut from meshes, taken from offsets, closed forms, refusals."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -227,3 +229,43 @@ def test_a_bulb_under_water_is_a_closed_section() -> None:
     bulb = section_of_mesh(vertices, panels, 0.0, 0.0)
     assert bulb.submerged and bulb.area == pytest.approx(1.0, abs=1e-12)
     assert bulb.breadth == 0.0 and bulb.draft == 3.0
+    assert bulb.symmetric
+
+
+@given(st.floats(0.0, 1.0, exclude_max=True), st.integers(8, 60))
+def test_a_bulb_is_symmetric_wherever_its_outline_begins(start: float, count: int) -> None:
+    angle = 2.0 * np.pi * (start + np.linspace(0.0, 1.0, 4 * count + 1))
+    outline = np.stack([np.cos(angle), np.sin(angle) - 3.0], axis=1)
+    outline[-1] = outline[0]
+    port, off_centre = Section(0.0, outline, 0.0), Section(0.0, outline + np.array([0.5, 0.0]), 0.0)
+    # A polygon that begins off the axes is no mirror image of itself, within its sagitta.
+    sagitta = 1.0 - np.cos(np.pi / (4 * count))
+    assert port.points[0] == pytest.approx([0.0, -2.0], abs=sagitta + 1e-12)
+    assert np.array_equal(port.points[0], port.points[-1])
+    assert port.along(np.array(0.25)) == pytest.approx([-1.0, -3.0], abs=4.0 / count)
+    assert port.area == pytest.approx(2 * count * np.sin(np.pi / (2 * count)), rel=1e-12)
+    assert not off_centre.symmetric
+
+
+@pytest.mark.parametrize("shift", [0, 3, 10, 17, 33])
+def test_a_bulb_symmetric_but_for_its_beginning(shift: int) -> None:
+    side = np.array([[0.0, -2.0], [-0.8, -2.4], [-1.0, -3.0], [-0.5, -3.6], [0.0, -3.8]])
+    fine = np.vstack([np.linspace(a, b, 8, endpoint=False) for a, b in pairwise(side)])
+    loop = np.vstack([fine, side[-1:], (fine * [-1.0, 1.0])[:0:-1]])
+    loop = np.roll(loop, shift, axis=0)
+    section = Section(0.0, np.vstack([loop, loop[:1]]), 0.0)
+    assert section.symmetric and section.submerged
+    assert section.points[0] == pytest.approx([0.0, -2.0], abs=1e-12)
+    nodes = contour_nodes(section, 24)
+    assert nodes[::-1] * [-1.0, 1.0] == pytest.approx(nodes, abs=1e-12)
+
+
+def test_a_small_part_beside_the_section_is_refused_too() -> None:
+    """A twentieth of the area, as a rudder beside a hull."""
+    (hull, panels), (part, more) = (
+        cuboid((-5.0, -2.0, -2.0), (5.0, 2.0, 1.0)),
+        cuboid((-5.0, 3.0, -1.0), (5.0, 3.4, 1.0)),
+    )
+    with pytest.raises(PanelsimError, match="separate parts below the water") as refused:
+        section_of_mesh(np.vstack([hull, part]), np.vstack([panels, more + len(hull)]), 0.0, 0.0)
+    assert "8, 0.4 m2" in str(refused.value) or "0.4, 8 m2" in str(refused.value)

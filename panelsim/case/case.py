@@ -115,8 +115,10 @@ class Case:
 
     def database(self, progress: Progress | None = None) -> HydroDatabase:
         """The hydrodynamic coefficients: from the case's file, stored before, or computed now."""
-        method = self.file.hydrodynamics.method
-        return self.stored_database() or database_for(self.ship, progress, method)
+        section = self.file.hydrodynamics
+        return self.stored_database() or database_for(
+            self.ship, progress, section.method, section.section_form
+        )
 
     def transom(self, database: HydroDatabase) -> Transom | None:
         """The section at the transom, if the case wants its terms; PanelsimError for a hull without one."""

@@ -55,8 +55,15 @@ class HydrodynamicsSection(Section):
     """[hydrodynamics]: how coefficients are computed, or the file that holds them; the transom."""
 
     method: Literal["bem", "strip"] = "bem"
+    section_form: Literal["close-fit", "lewis"] = "close-fit"
     file: Annotated[str, Field(min_length=1)] | None = None
     transom_terms: bool = False
+
+    @model_validator(mode="after")
+    def _section_form(self) -> "HydrodynamicsSection":
+        if self.section_form != "close-fit" and (self.method != "strip" or self.file is not None):
+            raise ValueError(f'section_form = "{self.section_form}" needs method = "strip", and no file')
+        return self
 
 
 class RunSection(Section):

@@ -102,6 +102,8 @@ def _show(name: str, record: DecayRecord, fit: RollDecay, natural: NaturalRoll |
         "quadratic b2": f"{fit.quadratic:.4g} 1/rad",
         "damping ratio, linear": f"{100.0 * fit.damping_ratio:.3g} % of critical",
         f"  with b2 at {np.rad2deg(largest):.3g}°": f"{equivalent:.3g} % of critical",
+        "standard error T, b1, b2": f"{fit.period_error:.2g} s, {fit.linear_error:.2g} 1/s,"
+        f" {fit.quadratic_error:.2g} 1/rad",
         "list, drift": f"{np.rad2deg(fit.offset):.3g}°, {np.rad2deg(fit.trend):.2g}°/s",
         "RMS of record less fit": f"{np.rad2deg(fit.residual):.2g}°, {fit.extremes} extremes",
     }

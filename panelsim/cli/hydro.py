@@ -1,7 +1,7 @@
 """The command `hydro`: coefficients of a ship, computed or taken from another program, stored."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, cast
 
 import typer
 
@@ -12,6 +12,7 @@ from panelsim.cli.show import out, progress_bars, show_coverage
 from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.exchange.any_format import read_database
+from panelsim.hydro.strip.section_forms import SectionForm
 from panelsim.studies.output_folder import make_output_folder
 
 
@@ -20,6 +21,9 @@ def hydro(
     output: Annotated[Path, typer.Option("-o", "--output", help="NetCDF file to write.")],
     method: Annotated[
         str | None, typer.Option(help="bem (boundary elements in 3-D, if not given) or strip.")
+    ] = None,
+    section_form: Annotated[
+        str | None, typer.Option(help="--method strip: close-fit (if not given) or lewis.")
     ] = None,
     source: Annotated[
         Path | None, typer.Option("--from", help="Of Capytaine, WAMIT (file or folder), BEMIO or HDB5.")
@@ -52,7 +56,7 @@ def hydro(
         "rest": rest,
     }
     given = {name: value for name, value in about.items() if value is not None}
-    _require_one_source(source, method, given)
+    _require_one_source(source, method or section_form, given)
     ship = ship_of(what)
     if source is not None:
         database = read_database(source, ship, **given)
@@ -61,7 +65,10 @@ def hydro(
         make_output_folder(output.parent)
         with progress_bars() as track:
             database = HydroDatabase.compute(
-                ship, method or "bem", progress=track("hydrodynamic coefficients")
+                ship,
+                method or "bem",
+                progress=track("hydrodynamic coefficients"),
+                section_form=cast(SectionForm, section_form or "close-fit"),
             )
     database.save(output, overwrite=force)
     out.print(f"Wrote {output}", soft_wrap=True)
@@ -74,7 +81,9 @@ def _require_one_source(source: Path | None, method: str | None, given: dict[str
         raise PanelsimError("Options for files of other programs were given without --from", got=names)
     if source is not None and method is not None:
         raise PanelsimError(
-            "Coefficients are either read or computed", got="--from and --method", remedy="give one of them"
+            "Coefficients are either read or computed",
+            got="--from, and --method or --section-form",
+            remedy="give one of them",
         )
 
 

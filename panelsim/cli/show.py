@@ -13,6 +13,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 from rich.table import Table
 
 from panelsim.case import Case
+from panelsim.case.schema import HydrodynamicsSection
 from panelsim.hull.defects import MeshDefect
 from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.exchange.coverage import coverage
@@ -143,7 +144,9 @@ def show_rows(title: str, rows: Mapping[str, str]) -> None:
 def show_case(case: Case) -> None:
     """What a case will run: waves, supplementary terms, coefficients, time."""
     run, hydrodynamics = case.file.run, case.file.hydrodynamics
-    database = case.stored_database() or stored_database(case.ship, hydrodynamics.method)
+    database = case.stored_database() or stored_database(
+        case.ship, hydrodynamics.method, hydrodynamics.section_form
+    )
     source = "computed when it is run" if database is None else "stored; what they cover is told below"
     rows = {
         "sea": _sea(case),
@@ -152,7 +155,7 @@ def show_case(case: Case) -> None:
         "roll damping": _roll_damping(case),
         "points": "; ".join(f"{name} at {x:g}, {y:g}, {z:g} m" for name, (x, y, z) in case.points.items())
         or "none",
-        "coefficients": f"{hydrodynamics.file or hydrodynamics.method}, {source}",
+        "coefficients": f"{_source(hydrodynamics)}, {source}",
         "run": f"{run.model}, {run.speed_knots:g} knots, ramp {run.ramp:g} s and {run.duration:g} s,"
         f" {run.steps} {run.stepper} steps of {run.time_step:g} s",
     }
@@ -160,6 +163,11 @@ def show_case(case: Case) -> None:
     if database is not None:
         require_waves_held(database, case.seaway.components)
         show_coverage(database)
+
+
+def _source(section: HydrodynamicsSection) -> str:
+    lewis = " with Lewis forms" if section.section_form == "lewis" else ""
+    return section.file or section.method + lewis
 
 
 def show_coverage(database: HydroDatabase) -> None:

@@ -16,10 +16,12 @@ from panelsim.hull.refine import subdivided
 from panelsim.hydro.bem import Progress, highest_resolved_frequency, solve_radiation
 from panelsim.hydro.conditioning import require_physical
 from panelsim.hydro.database_file import FORMAT, POTENTIALS, TABLES, read_database_file
+from panelsim.hydro.frequency_grids import frequency_grid
 from panelsim.hydro.memory import MemoryFunctions, memory_functions
 from panelsim.hydro.memory_states import MemoryStates, memory_states
-from panelsim.hydro.strip.database import highest_strip_frequency, solve_strips
-from panelsim.hydro.strip.mesh_sections import sections_of_mesh
+from panelsim.hydro.strip.of_ship import solve_strips_of_ship
+from panelsim.hydro.strip.section_forms import SectionForm, require_section_form
+from panelsim.hydro.strip.sections import HullSections
 from panelsim.ship.bundled import default_panel_area
 from panelsim.ship.ship import Ship, require_ship
 
@@ -32,16 +34,6 @@ _CONVENTIONS = {
 # About what gives eight panels to the shortest wave that moves a ship (2.5 rad/s at 120 m).
 _WET_PANELS = 1000
 _WET_PANELS_OF_AN_OWN_MESH = 1200
-# For a ship of 120 m [rad/s]; others go as 1/√L. Stern-quartering seas meet the ship at
-# less than 0.3 rad/s, hence the fine start; waves shorter than half the ship turn the phase of the potentials
-# quickly, hence the fine end.
-_REFERENCE_LENGTH = 120.0
-_REFERENCE_FREQUENCIES = np.array([*np.arange(4) / 20.0, *np.arange(2, 10) / 10.0, *np.arange(20, 53) / 20.0])
-
-# Strips are led to rest from 0.4 rad/s, which wants closer steps; and sections resolve shorter waves than
-# panels do, which a ship at speed meets in head seas.
-_MORE_FOR_STRIPS = np.array([0.25, 0.35, 0.45, 0.55, *np.arange(14, 26) / 5.0])
-_STRIPS = 21
 
 METHODS = ("bem", "strip")
 
@@ -67,25 +59,36 @@ class HydroDatabase:
     dataset: xr.Dataset
 
     @classmethod
-    def compute(cls, ship: Ship, method: str = "bem", progress: Progress | None = None) -> "HydroDatabase":
+    def compute(
+        cls,
+        ship: Ship,
+        method: str = "bem",
+        progress: Progress | None = None,
+        *,
+        sections: HullSections | None = None,
+        section_form: SectionForm = "close-fit",
+    ) -> "HydroDatabase":
         """Solve the radiation problems of a ship: by "bem" in seconds to a minute, by "strip" in two seconds.
 
         "bem" are boundary elements in three dimensions, "strip" is strip theory on 21 sections cut from the
         panels (`panelsim.hydro.strip.assembly`): for a slender hull, without surge, and with coefficients by
         section. A ship with a hull form is panelled anew, as finely as the frequencies need; one without is
         solved on its own mesh, for "bem" with coarse panels split in four. `progress(done, total)` counts
-        frequencies or sections. Raises PanelsimError for what is no ship, for another method, for a solution
-        that is not physical and for sections that cannot be cut.
+        frequencies or sections.
+
+        For "strip" `sections` in ship axes, from offsets (`sections_from_offsets`), take the place of those
+        that are cut; each stands for the strip to half-way to its neighbours. `section_form` "lewis" solves
+        the Lewis forms of their breadth, draft and area, in less than half the time of their own outlines.
+
+        Raises PanelsimError for what is no ship, for another method or form, for a solution that is not
+        physical, for sections that cannot be cut or are not those of the ship, and for those that no Lewis form can stand for.
         """
         require_ship(ship)
-        if method not in METHODS:
-            raise PanelsimError(
-                "This method is not known", got=repr(method)[:60], allowed=" | ".join(METHODS)
-            )
+        _require_method(method, sections, section_form)
         solved = _panelled_for_solution(ship)
         _require_same_flotation(ship, solved)
         if method == "strip":
-            return cls.of_ship(solved, _solve_strips(solved, progress))
+            return cls.of_ship(solved, solve_strips_of_ship(solved, sections, section_form, progress))
         mesh = solved.mesh if ship.form is not None else _refined(ship)
         wet = _wet_panels(ship, mesh)
         resolved = highest_resolved_frequency(float(mesh.area[wet].mean()), ship.gravity)
@@ -294,28 +297,16 @@ class HydroDatabase:
             )
 
 
-def frequency_grid(length: float, highest: float = np.inf) -> FloatArray:
-    """Frequencies (F,) [rad/s] from 0 for a ship of this length [m], drawn together to end by `highest`."""
-    scale = np.sqrt(_REFERENCE_LENGTH / length)
-    return _REFERENCE_FREQUENCIES * min(scale, highest / _REFERENCE_FREQUENCIES[-1])
-
-
-def strip_frequency_grid(length: float, highest: float = np.inf) -> FloatArray:
-    """`frequency_grid` with closer steps at the lower end, and on to `highest` [rad/s] or 5 at 120 m."""
-    grid = frequency_grid(length, highest)
-    more = _MORE_FOR_STRIPS * grid[-1] / _REFERENCE_FREQUENCIES[-1]
-    return np.union1d(grid, more[more <= highest])
-
-
-def _solve_strips(ship: Ship, progress: Progress | None) -> xr.Dataset:
-    sections = sections_of_mesh(ship.vertices, ship.mesh.panels, ship.waterline, _STRIPS)
-    return solve_strips(
-        sections,
-        water_density=ship.water_density,
-        gravity=ship.gravity,
-        frequencies=strip_frequency_grid(ship.length, highest_strip_frequency(sections, ship.gravity)),
-        progress=progress,
-    )
+def _require_method(method: str, sections: HullSections | None, section_form: str) -> None:
+    if method not in METHODS:
+        raise PanelsimError("This method is not known", got=repr(method)[:60], allowed=" | ".join(METHODS))
+    require_section_form(section_form)
+    if method != "strip" and (sections is not None or section_form != "close-fit"):
+        raise PanelsimError(
+            "Sections and their form belong to strip theory",
+            got=f"method {method}, section form {section_form}",
+            remedy='take method "strip"',
+        )
 
 
 def _panelled_for_solution(ship: Ship) -> Ship:

@@ -37,12 +37,15 @@ def diffraction_load(
     Complex amplitude with exp(+iω_e t), ω_e signed, on the ship's mean position in ship axes, the phase that
     of a crest at the centre of gravity at t = 0. With a `transom`, less U times the momentum per metre that
     leaves there, the end terms of Salvesen, Tuck and Faltinsen (1970). Raises PanelsimError for arguments of
-    another kind or out of range and, without potentials, for waves that the tables do not cover.
+    another kind or out of range, for the transom of another hull and, without potentials, for waves that the
+    tables do not cover.
     """
     require_kind("database", database, HydroDatabase, A_DATABASE)
     require_kind("transom", transom, Transom | None, A_TRANSOM)
     require_speed_ahead(speed)
     omega, heading = _components(frequency, require_angles("wave heading", wave_heading))
+    if transom is not None:
+        transom.require_hull_of(database)
     momentum = diffraction_momentum(database, omega, heading, speed)
     encounter = encounter_frequency(omega, heading, speed, database.gravity)
     load = -1j * encounter[:, None] * momentum

@@ -15,7 +15,7 @@ def at_frequency(
     `values` (F, ...) at the `stored` frequencies (F,) [rad/s], ascending from 0, `infinite` (...) their
     limit. Cubic between them. The real part is even in ω and the imaginary part, B(ω)/ω or its like, vanishes
     at rest as ω² or faster, so both leave 0 with no slope. Beyond the last frequency, where no wave is
-    resolved, f(ω) = f(∞) + (f(last) - f(∞)) (last/ω)².
+    resolved, f(ω) = f(∞) + (f(last) - f(∞)) (last/ω)²: B, of which f has B/ω, falls as 1/ω there.
     """
     last = stored[-1]
     magnitude = np.abs(frequency)

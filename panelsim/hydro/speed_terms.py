@@ -70,7 +70,7 @@ def radiation_at_speed(
     """Coefficients at signed frequencies of encounter (M,) [rad/s], 0 allowed, and a speed [m/s].
 
     With a `transom`, its end terms too. Raises PanelsimError for arguments of another kind, a frequency
-    that is not finite and a speed that no ship has.
+    that is not finite, a speed that no ship has and the transom of another hull.
     """
     require_kind("database", database, HydroDatabase, A_DATABASE)
     require_kind("transom", transom, Transom | None, A_TRANSOM)
@@ -83,6 +83,7 @@ def radiation_at_speed(
     damping = frequency_squared * rate + mass @ coupling - coupling.T @ mass + coupling.T @ rate @ coupling
     stiffness = frequency_squared * (rate @ coupling - coupling.T @ rate) - coupling.T @ mass @ coupling
     if transom is not None:
+        transom.require_hull_of(database)
         end_mass, end_rate = _real_parts(transom.inertia(magnitude), magnitude)
         damping = damping + speed * (end_mass - end_rate @ coupling)
         stiffness = stiffness + speed * (frequency_squared * end_rate + end_mass @ coupling)

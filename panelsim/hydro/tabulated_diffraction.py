@@ -68,6 +68,27 @@ def largest_heading_step(database: HydroDatabase, frequency: FloatArray) -> Floa
     return np.minimum(2.0 * _LARGEST_TURN / (k * database.length), _LARGEST_HEADING_STEP)
 
 
+def highest_covered(database: HydroDatabase, wave_heading: FloatArray | None) -> float:
+    """Frequency [rad/s] up to which the tables are fine enough to interpolate at headings (H,) [rad].
+
+    None stands for all headings. Steps of heading that are too wide for any frequency do not count: they are
+    for `require_covered` to refuse.
+    """
+    stored, headings = database.wave_frequencies, database.wave_headings
+    too_wide = np.diff(stored) > largest_frequency_step(database, stored[1:]) + _ROUNDING
+    last = float(stored[int(np.argmax(too_wide))] if too_wide.any() else stored[-1])
+    ring = np.append(headings, headings[0] + 2 * np.pi)
+    gaps = np.diff(ring)
+    if wave_heading is not None:
+        turned = headings[0] + np.mod(wave_heading - headings[0] + _ROUNDING, 2 * np.pi) - _ROUNDING
+        between = np.abs(turned[:, None] - ring).min(axis=1) > _ROUNDING
+        gaps = gaps[np.searchsorted(ring, turned[between], side="right") - 1]
+    gaps = gaps[gaps <= _LARGEST_HEADING_STEP + _ROUNDING]
+    if not gaps.size:
+        return last
+    return min(last, float(np.sqrt(2.0 * _LARGEST_TURN * database.gravity / (gaps.max() * database.length))))
+
+
 def require_covered(database: HydroDatabase, frequency: FloatArray, wave_heading: FloatArray) -> None:
     """Refuse waves that the diffraction tables do not hold, naming the first and what is held.
 

@@ -15,6 +15,7 @@ from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.hydro.arguments import finite_row
 from panelsim.hydro.conditioning import require_physical
+from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.interpolation import at_frequency
 from panelsim.hydro.strip.assembly import lowest_strip_frequency, section_motion
 from panelsim.hydro.strip.contour import Contour, contour_nodes, highest_frequency
@@ -105,6 +106,16 @@ class Transom:
                 f"The transom is of another ship than {ship.name}",
                 got=f"a section at x = {self.x:.6g} m of a hull of {self.length:.6g} m",
                 remedy="cut that of this ship: Transom.of_ship(ship, database.frequencies)",
+            )
+
+    def require_hull_of(self, database: HydroDatabase) -> None:
+        """Raise PanelsimError for coefficients that a database tells to be those of another hull."""
+        stored = database.dataset.attrs.get("ship_form", self.fingerprint)
+        if stored != self.fingerprint:
+            raise PanelsimError(
+                "The transom and the hydrodynamic database are of different hulls",
+                got=f"transom {self.fingerprint}, database {stored}",
+                remedy="cut that of the ship: Transom.of_ship(ship, database.frequencies)",
             )
 
     @cached_property

@@ -22,7 +22,7 @@ RollDamping = RollDampingTerms | Sequence[RollDampingTerms] | None
 
 
 def require_parts(ship: Ship, database: HydroDatabase, supplementary: object, transom: object) -> None:
-    """Raise PanelsimError for parts of another kind, and for a database of another ship."""
+    """Raise PanelsimError for parts of another kind, and for a database or a transom of another ship."""
     require_ship(ship)
     optional = (("supplementary", supplementary, Supplementary), ("transom", transom, Transom))
     parts = [("database", database, HydroDatabase), *(part for part in optional if part[1] is not None)]
@@ -32,6 +32,8 @@ def require_parts(ship: Ship, database: HydroDatabase, supplementary: object, tr
                 f"The {name} is of another kind", got=repr(part)[:60], allowed=f"a {kind.__name__}"
             )
     database.require_for(ship)
+    if isinstance(transom, Transom):
+        transom.require_for(ship)
 
 
 def rising_frequencies(values: ArrayLike) -> FloatArray:

@@ -1,12 +1,17 @@
 """Statistics of linear motions in a sea, for every speed and course."""
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
 from panelsim.conventions import Dof, FloatArray
 from panelsim.errors import PanelsimError
+from panelsim.hydro.database import HydroDatabase
 from panelsim.hydro.roll_damping.terms import RollDampingTerms
+from panelsim.hydro.tabulated_diffraction import highest_covered
 from panelsim.response.arguments import different_headings
 from panelsim.response.linear_ship import LinearShip
 from panelsim.response.notes import sea_notes
@@ -34,11 +39,9 @@ def in_sea(
     spreading: Spreading | None,
 ) -> xr.Dataset:
     """Statistics (speed, heading, signal) as `TransferFunctions.in_sea` says; `speeds` (S,) [m/s]."""
-    reach = (0.0, np.inf)
-    if not linear_ship.database.has_potentials:
-        held_frequencies = linear_ship.database.wave_frequencies
-        reach = (float(held_frequencies[0]), float(held_frequencies[-1]))
-    name, headings, waves = _waves_of(sea, wave_headings, ship_headings, spreading, reach)
+    name, headings, waves = _waves_of(
+        sea, wave_headings, ship_headings, spreading, partial(_reach, linear_ship.database)
+    )
     linear = np.array([terms.linear for terms in roll_damping])
     motions = linear_ship.in_waves(waves.frequency, waves.wave_heading, speeds, linear)
     stiffness = np.diag(linear_ship.stiffness)
@@ -64,21 +67,24 @@ def _waves_of(
     wave_headings: ArrayLike | None,
     ship_headings: ArrayLike | None,
     spreading: Spreading | None,
-    reach: tuple[float, float],
+    reach: Callable[[FloatArray | None], tuple[float, float]],
 ) -> tuple[str, FloatArray, SeaWaves]:
-    """Which headings the courses are told by, these (H,) [rad], and the waves that stand for the sea."""
+    """Which headings the courses are told by, these (H,) [rad], and the waves that stand for the sea.
+
+    `reach` tells the frequencies that can be solved at some wave headings, or with None at all.
+    """
     if isinstance(sea, PointSpectrum):
         _refuse(ship_headings=ship_headings)
         beta = different_headings("wave heading", [] if wave_headings is None else wave_headings)
         if spreading is None:
-            return "wave_heading", beta, waves_of_spectrum(sea, beta, reach)
+            return "wave_heading", beta, waves_of_spectrum(sea, beta, reach(beta))
         # Waves from north: β = π - χ.
         spread = SpreadSpectrum(sea, spreading, 0.0)
-        return "wave_heading", beta, waves_of_directions(spread, np.pi - beta, reach)
+        return "wave_heading", beta, waves_of_directions(spread, np.pi - beta, reach(None))
     _refuse(wave_headings=wave_headings, spreading=spreading)
     if isinstance(sea, DirectionalSpectrum):
         courses = different_headings("ship heading", 0.0 if ship_headings is None else ship_headings)
-        return "ship_heading", courses, waves_of_directions(sea, courses, reach)
+        return "ship_heading", courses, waves_of_directions(sea, courses, reach(None))
     if isinstance(sea, Seaway):
         courses = different_headings(
             "ship heading", sea.ship_heading if ship_headings is None else ship_headings
@@ -89,6 +95,13 @@ def _waves_of(
         got=repr(sea)[:60],
         allowed="a seaway, a point spectrum or a directional spectrum",
     )
+
+
+def _reach(database: HydroDatabase, wave_heading: FloatArray | None) -> tuple[float, float]:
+    """Lowest and highest frequency [rad/s] that can be solved at wave headings (H,) [rad], None for all."""
+    if database.has_potentials:
+        return 0.0, np.inf
+    return float(database.wave_frequencies[0]), highest_covered(database, wave_heading)
 
 
 def _refuse(**given: object) -> None:

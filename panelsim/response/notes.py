@@ -9,6 +9,8 @@ from panelsim.hydro.transom import TRANSOM_NOTE
 from panelsim.response.linear_ship import LinearShip, MotionsInWaves
 from panelsim.response.sea_waves import SeaWaves
 
+_WHOLE = 0.99  # share of the energy of a sea that needs no word
+
 
 def response_notes(linear_ship: LinearShip, motions: MotionsInWaves, speeds: FloatArray) -> list[str]:
     """Sentences on a table of transfer functions; none where all is well."""
@@ -23,7 +25,7 @@ def response_notes(linear_ship: LinearShip, motions: MotionsInWaves, speeds: Flo
         notes.append(
             f"{beyond.sum()} of {beyond.size} waves meet the ship at up to"
             f" {np.abs(motions.encounter).max():.2f} rad/s, beyond the {highest:.2f} rad/s that the"
-            " coefficients resolve; there they tend to their infinite-frequency limit as 1/ω²."
+            " coefficients resolve; there added mass tends to its limit as 1/ω² and damping to 0 as 1/ω."
         )
     return notes + _course_note(linear_ship, float(speeds.max()))
 
@@ -39,6 +41,11 @@ def sea_notes(
         for index, variance in waves.courses
     ]
     notes = []
+    if waves.energy_share < _WHOLE:
+        notes.append(
+            f"{100 * (1.0 - waves.energy_share):.2g} % of the energy of the sea is left out: the diffraction"
+            f" tables reach {waves.frequency.min():.3g} to {waves.frequency.max():.3g} rad/s at its headings."
+        )
     if max(shares) > 0.0:
         notes.append(
             f"Up to {100 * max(shares):.2g} % of the wave energy meets the ship faster than the"

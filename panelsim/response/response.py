@@ -119,9 +119,10 @@ def response(
     [m/s]. `roll_damping` is one for all speeds or one for each; transfer functions have its linear term,
     motions in a sea all of it. With a `transom`, the end terms of Salvesen, Tuck and Faltinsen (1970).
 
-    Raises PanelsimError for arguments of another kind or out of range, for a database of another ship, for
-    waves that the diffraction tables of a foreign database do not hold, and where a wave stands still beside
-    a ship that nothing holds. Waves that meet the ship faster than the coefficients resolve are noted.
+    Raises PanelsimError for arguments of another kind or out of range, for a database or a transom of another
+    ship, for waves that the diffraction tables of a foreign database do not hold, and where a wave stands
+    still beside a ship that nothing holds. Waves that meet the ship faster than the coefficients resolve are
+    noted.
     """
     require_parts(ship, database, supplementary, transom)
     omega = rising_frequencies(frequencies)

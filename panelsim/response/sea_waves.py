@@ -15,8 +15,11 @@ from panelsim.seaway.direction.directional_spectrum import DirectionalSpectrum
 from panelsim.seaway.seaways import Seaway
 from panelsim.seaway.spectra.point_spectrum import PointSpectrum
 
-# Shares of the energy that are left out below and above.
-_TAILS = (1e-5, 2e-3)
+# Shares of the energy that are left out below and above, and above which bands are coarse: no ship moves in
+# such short waves, but she rises and falls beside them, so that the relative motion is the wave itself.
+_TAILS = (1e-5, 1e-4)
+_SHORT_WAVES = 2e-3
+_COARSE_BAND = 0.05
 # Of the frequency. Measured on a frigate up to 20 knots, against bands and directions five times as narrow:
 # roll of 9 % of critical damping is within 0.2 %, of 1.5 % within 1 %, the other motions within 0.1 %.
 _BAND = 0.012
@@ -123,5 +126,11 @@ def _bands(spectrum: PointSpectrum, reach: tuple[float, float]) -> tuple[FloatAr
             allowed=f"{100 * _LEAST_ENERGY:g} % or more",
             remedy="compute coefficients at more wave frequencies",
         )
-    edges = np.geomspace(low, high, 1 + int(np.ceil(np.log(high / low) / _BAND)))
+    short = float(np.clip(spectrum.frequency_below(1.0 - _SHORT_WAVES), low, high))
+    edges = np.concatenate([_edges(low, short, _BAND), _edges(short, high, _COARSE_BAND)[1:]])
     return 0.5 * (edges[1:] + edges[:-1]), np.diff(edges), share
+
+
+def _edges(low: float, high: float, band: float) -> FloatArray:
+    """Edges of bands of a share of their frequency or less, low to high [rad/s]; one edge if they meet."""
+    return np.geomspace(low, high, 1 + int(np.ceil(np.log(high / low) / band)))

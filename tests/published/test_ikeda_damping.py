@@ -232,6 +232,16 @@ def test_growth_with_speed() -> None:
     assert fast.bilge_keel == rest.bilge_keel > 0.0
 
 
+@pytest.mark.parametrize(("midship", "kappa"), [(0.92, 0.0), (0.921, 0.1), (0.97, 0.1), (0.971, 0.3)])
+def test_lift_slope_changes_above_its_midship_coefficients(midship: float, kappa: float) -> None:
+    """ITTC 7.5-02-07-04.5: κ is 0 for C_M up to 0.92, 0.1 up to 0.97 and 0.3 above."""
+    ship = cargo_ship(midship_coefficient=midship)
+    plain = lift_damping(cargo_ship(midship_coefficient=0.5), 10.0)
+    flat = 2.0 * np.pi * ship.draft / ship.length_pp
+    grown = flat + kappa * (4.1 * ship.beam / ship.length_pp - 0.045)
+    assert lift_damping(ship, 10.0) / plain == pytest.approx(grown / flat, rel=1e-12)
+
+
 def test_growth_with_amplitude_and_frequency() -> None:
     small, large = (ikeda_damping(FRIGATE, KEELS, a, FREQUENCY, 5.0) for a in (0.1, 0.2))
     assert large.eddy == pytest.approx(2.0 * small.eddy, rel=1e-12)

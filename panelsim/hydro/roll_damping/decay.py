@@ -27,7 +27,9 @@ class RollDecay:
     `period` 2π/ω0 [s]; `linear` b1 [1/s] and `quadratic` b2 [1/rad], over the inertia with the added one;
     `offset` [rad] at time 0 and `trend` [rad/s] of the line; `residual` RMS of record less fit [rad];
     `extremes` of the record that stand clear of its noise; `fitted` (N,) [rad] the roll of this equation at
-    the times of the record.
+    the times of the record. `period_error` [s], `linear_error` [1/s] and `quadratic_error` [1/rad] are
+    standard errors for a residual that is noise, each sample for itself: a short record tells the sum of both
+    damping terms better than either.
     """
 
     period: float
@@ -37,6 +39,9 @@ class RollDecay:
     trend: float
     residual: float
     extremes: int
+    period_error: float
+    linear_error: float
+    quadratic_error: float
     fitted: FloatArray = field(default_factory=lambda: np.zeros(0), repr=False, compare=False)
 
     @property
@@ -100,6 +105,7 @@ def fit_roll_decay(time: ArrayLike, roll: ArrayLike) -> RollDecay:
         gtol=1e-14,
     )
     frequency, linear, quadratic, *_, offset, trend = (float(value) for value in fit.x)
+    errors = _standard_errors(fit.jac * scale, fit.fun) * scale
     return RollDecay(
         period=2.0 * np.pi / frequency,
         linear=linear,
@@ -108,6 +114,9 @@ def fit_roll_decay(time: ArrayLike, roll: ArrayLike) -> RollDecay:
         trend=trend,
         residual=float(np.sqrt(np.mean(fit.fun**2))),
         extremes=start.extremes,
+        period_error=2.0 * np.pi / frequency**2 * float(errors[0]),
+        linear_error=float(errors[1]),
+        quadratic_error=float(errors[2]),
         fitted=roll + fit.fun,
     )
 
@@ -138,6 +147,13 @@ def _simulated(time: FloatArray, unknown: FloatArray, period: float) -> FloatArr
     path = CubicHermiteSpline(h * np.arange(steps + 1), rolls, rates)
     roll: FloatArray = path(time) + offset + trend * time
     return roll
+
+
+def _standard_errors(jacobian: FloatArray, residual: FloatArray) -> FloatArray:
+    """Standard errors (K,) of K unknowns fitted to N samples, from the Jacobian (N, K) and residual (N,)."""
+    samples, unknowns = jacobian.shape
+    variance = float(residual @ residual) / max(samples - unknowns, 1)
+    return np.asarray(np.sqrt(variance * np.diag(np.linalg.pinv(jacobian.T @ jacobian))))
 
 
 def _samples(time: FloatArray, start: Extinction) -> int:

@@ -35,6 +35,12 @@ def section_motion(x: float) -> FloatArray:
     return motion
 
 
+def strip_middles(sections: HullSections) -> FloatArray:
+    """x (S,) [m] of the middle of the strip that each section stands for, which need not be its station."""
+    length = sections.strip_length
+    return sections.aft_end + np.cumsum(length) - 0.5 * length
+
+
 @dataclass(frozen=True, eq=False)
 class Strips:
     """The solved sections of a hull; every solution at the same frequencies, from 0, infinity the last."""
@@ -45,8 +51,7 @@ class Strips:
     @cached_property
     def middle(self) -> FloatArray:
         """x (S,) [m] of the middle of each strip, the lever of its loads."""
-        length = self.sections.strip_length
-        return self.sections.aft_end + np.cumsum(length) - 0.5 * length
+        return strip_middles(self.sections)
 
     @cached_property
     def section_inertia(self) -> ComplexArray:

@@ -12,12 +12,14 @@ import xarray as xr
 from panelsim.conventions import DOF_NAMES, ComplexArray, Dof, FloatArray
 from panelsim.hydro.radiation_dataset import radiation_dataset
 from panelsim.hydro.strip.assembly import Strips, lowest_strip_frequency, section_motion
-from panelsim.hydro.strip.contour import Contour, contour_nodes, highest_frequency
-from panelsim.hydro.strip.frank import ELEMENTS
+from panelsim.hydro.strip.contour import highest_frequency
+from panelsim.hydro.strip.lewis import LewisForm
 from panelsim.hydro.strip.long_waves import solve_at_all_frequencies
-from panelsim.hydro.strip.sections import HullSections
+from panelsim.hydro.strip.section_forms import SectionForm, lewis_forms, section_contour
+from panelsim.hydro.strip.sections import HullSections, Section
 
 _SLENDER = 3.0  # times the beam; ships are four times and more
+_NAMES = {"close-fit": "sections", "lewis": "Lewis forms"}
 SECTION_DOFS = tuple(DOF_NAMES[dof] for dof in (Dof.SWAY, Dof.HEAVE, Dof.ROLL))
 
 
@@ -27,28 +29,31 @@ def solve_strips(
     water_density: float,
     gravity: float,
     frequencies: FloatArray,
+    section_form: SectionForm = "close-fit",
     progress: Callable[[int, int], None] | None = None,
 ) -> xr.Dataset:
     """Added mass, damping and potentials of a hull at zero speed by strip theory.
 
     `frequencies` (F,) [rad/s], ascending from 0; the limit of infinite frequency is always added.
+    `section_form` "close-fit" takes sections as they are, "lewis" the Lewis forms of their dimensions.
     `progress(done, total)` counts sections. The Dataset is that of `panelsim.hydro.bem.solve_radiation`, and
     holds besides, by station from the stern forward, `section_x`, `strip_length` [m] and the coefficients per
     metre `section_added_mass`, `section_damping` (frequency, section, 3, 3) and `section_added_mass_infinite`
     in sway, heave and roll about the centre of gravity. Raises PanelsimError for frequencies that the
-    elements do not resolve.
+    elements do not resolve, and as `lewis_forms`.
     """
     frequencies = np.array(frequencies, dtype=np.float64)
     lowest = lowest_strip_frequency(sections.fore_end - sections.aft_end, gravity)
+    outlines, note = _outlines(sections, section_form)
     solutions = []
-    for section in sections.sections:
+    for section in outlines:
         solutions.append(
             solve_at_all_frequencies(
                 section, frequencies, lowest, water_density=water_density, gravity=gravity
             )
         )
         if progress is not None:
-            progress(len(solutions), len(sections.sections))
+            progress(len(solutions), len(outlines))
     strips = Strips(sections, tuple(solutions))
     symmetric = all(section.symmetric for section in sections.sections)
     potential, corners = _panels(strips, half_hull=symmetric)
@@ -59,12 +64,15 @@ def solve_strips(
         water_density=water_density,
         gravity=gravity,
         lowest_strip_frequency=lowest,
-        solver=f"strip theory, {len(solutions)} sections of {ELEMENTS} elements",
+        section_form=section_form,
+        solver=f"strip theory, {len(solutions)} {_NAMES[section_form]} of"
+        f" {len(solutions[0].contour.length)} elements",
         notes="\n".join(
             [
                 "Strip theory: no radiation and no diffraction in surge; heave and pitch are led to their"
                 f" limits at rest below {lowest:.3g} rad/s, where waves are longer than three ships.",
                 *_slenderness_note(sections),
+                *([note] if note else []),
             ]
         ),
     )
@@ -82,12 +90,19 @@ def _slenderness_note(sections: HullSections) -> list[str]:
     ]
 
 
-def highest_strip_frequency(sections: HullSections, gravity: float) -> float:
+def highest_strip_frequency(
+    sections: HullSections, gravity: float, section_form: SectionForm = "close-fit"
+) -> float:
     """Frequency [rad/s] up to which the elements of all sections resolve the wave length."""
-    return min(
-        highest_frequency(Contour.of_nodes(contour_nodes(s, ELEMENTS), s.waterline), gravity)
-        for s in sections.sections
-    )
+    outlines, _ = _outlines(sections, section_form)
+    return min(highest_frequency(section_contour(outline), gravity) for outline in outlines)
+
+
+def _outlines(
+    sections: HullSections, section_form: SectionForm
+) -> tuple[tuple[Section, ...] | tuple[LewisForm, ...], str]:
+    """What is solved for each section, and what a reader should know of it."""
+    return lewis_forms(sections) if section_form == "lewis" else (sections.sections, "")
 
 
 def _panels(strips: Strips, *, half_hull: bool) -> tuple[ComplexArray, FloatArray]:

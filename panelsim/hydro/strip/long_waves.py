@@ -14,6 +14,8 @@ from scipy.special import xlogy
 
 from panelsim.conventions import FloatArray, IntArray
 from panelsim.hydro.strip.frank import solve_section
+from panelsim.hydro.strip.lewis import LewisForm
+from panelsim.hydro.strip.multipoles import solve_lewis_elements
 from panelsim.hydro.strip.sections import Section
 from panelsim.hydro.strip.solution import SectionSolution
 
@@ -25,9 +27,14 @@ _DISPLACES = 1e-6  # share of ∫ |n_j| dl above which ∫ n_j dl is no rounding
 
 
 def solve_at_all_frequencies(
-    section: Section, frequencies: FloatArray, lowest: float, *, water_density: float, gravity: float
+    section: Section | LewisForm,
+    frequencies: FloatArray,
+    lowest: float,
+    *,
+    water_density: float,
+    gravity: float,
 ) -> SectionSolution:
-    """A section at the frequencies of a database, rest and infinity included.
+    """A section at the frequencies of a database, rest and infinity included; a Lewis form by multipoles.
 
     `frequencies` (F,) [rad/s], ascending from 0; infinity is added. `lowest` [rad/s]: the frequency below
     which motions that displace the waterline are led to rest. Raises PanelsimError for frequencies that the
@@ -36,7 +43,11 @@ def solve_at_all_frequencies(
     share = np.maximum(frequencies / lowest, _AT_REST)
     samples = np.maximum(np.linspace(0.0, 1.0, _SAMPLES), _AT_REST)
     asked = np.concatenate([lowest * share, [np.inf], lowest * samples])
-    solved = solve_section(section, asked, water_density=water_density, gravity=gravity)
+    solved = (
+        solve_lewis_elements(section, asked, water_density=water_density, gravity=gravity)
+        if isinstance(section, LewisForm)
+        else solve_section(section, asked, water_density=water_density, gravity=gravity)
+    )
     potential = solved.potential[: -len(samples)].copy()
     displacing = _displacing(solved)
     flat = solved.potential[-len(samples) :, displacing].imag.reshape(len(samples), -1)

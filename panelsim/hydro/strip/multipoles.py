@@ -52,6 +52,29 @@ def solve_lewis(
     return SectionSolution.of_potential(contour, omega, potential, water_density, gravity)
 
 
+def solve_lewis_elements(
+    form: LewisForm, frequencies: FloatArray, *, water_density: float, gravity: float
+) -> SectionSolution:
+    """`solve_lewis` handed on as straight elements, each with the potential of the point that it is about."""
+    of_points = solve_lewis(form, frequencies, water_density=water_density, gravity=gravity)
+    contour = Contour.of_nodes(lewis_nodes(form), form.waterline)
+    return SectionSolution.of_potential(
+        contour, of_points.frequencies, of_points.potential.copy(), water_density, gravity
+    )
+
+
+def lewis_nodes(form: LewisForm) -> FloatArray:
+    """Ends (81, 2) [m] of elements about the points of the quadrature, of their weights on the circle.
+
+    The points of a Gauss rule lie between the sums of its weights (Chebyshev, Markov and Stieltjes).
+    """
+    _, weight = _quadrature()
+    outline = form.mapped(np.concatenate([[-0.5 * np.pi], np.cumsum(weight) - 0.5 * np.pi]))
+    side = np.stack([outline.real, outline.imag + form.waterline], axis=1)
+    side[0, 0], side[-1, 1] = 0.0, form.waterline
+    return np.vstack([side[:0:-1] * [-1.0, 1.0], side])
+
+
 def _fitted(
     form: LewisForm, alpha: FloatArray, k: FloatArray, multipoles: int, even: bool, stream: FloatArray
 ) -> ComplexArray:

@@ -21,8 +21,9 @@ class Section:
 
     `x` [m] in ship axes. `points` (P, 2): y to port and z up [m] in ship axes, from the waterline on the
     starboard side round the keel to the waterline on the port side; the outline of a part that lies
-    wholly under water (a bulb) runs the same way round and ends where it began. `waterline`: height of
-    the water at rest in ship axes [m]. Raises PanelsimError for an outline that does not close.
+    wholly under water (a bulb) runs the same way round and ends where it began, and is kept from the highest
+    point on the centreline on, if it has one. `waterline`: height of the water at rest in ship axes [m].
+    Raises PanelsimError for an outline that does not close.
     """
 
     x: float
@@ -58,6 +59,8 @@ class Section:
                 allowed="one body below the water at each station",
             )
         points[-1 if closed else [0, -1], 1] = points[0, 1] if closed else self.waterline
+        if closed:
+            points = _from_the_centreline(points)
         points.setflags(write=False)
         object.__setattr__(self, "points", points)
         if self.area <= tolerance**2 or self.breadth < 0.0:
@@ -214,6 +217,20 @@ def _stations(stations: Sequence[FloatArray]) -> list[FloatArray]:
         if row.ndim != 2 or row.shape[1] != 3 or not len(row):
             raise PanelsimError("A station is not rows of three numbers", got=row.shape, allowed=allowed)
     return rows
+
+
+def _from_the_centreline(points: FloatArray) -> FloatArray:
+    """The same closed outline (P, 2) from its highest crossing of y = 0 on; as it is where there is none."""
+    y, z = points.T
+    crossing = np.flatnonzero((y[:-1] * y[1:] <= 0.0) & (y[:-1] != y[1:]))
+    if not crossing.size:
+        return points
+    height = (z[:-1] * y[1:] - z[1:] * y[:-1])[crossing] / (y[1:] - y[:-1])[crossing]
+    first = int(crossing[np.argmax(height)])
+    top = np.array([[0.0, height.max()]])
+    turned = _without_repeats(np.vstack([top, points[first + 1 : -1], points[: first + 1], top]))
+    turned[-1] = turned[0]
+    return turned
 
 
 def _without_repeats(points: FloatArray) -> FloatArray:
