@@ -81,7 +81,8 @@ class HydroDatabase:
         the Lewis forms of their breadth, draft and area, in less than half the time of their own outlines.
 
         Raises PanelsimError for what is no ship, for another method or form, for a solution that is not
-        physical, for sections that cannot be cut or are not those of the ship, and for those that no Lewis form can stand for.
+        physical, for sections that cannot be cut or are not those of the ship, and for those that no Lewis
+        form can stand for.
         """
         require_ship(ship)
         _require_method(method, sections, section_form)
