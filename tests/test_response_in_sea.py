@@ -284,7 +284,7 @@ def test_a_peak_between_cells_and_a_pile_of_small_frequencies() -> None:
     bump = np.exp(-0.5 * ((omega - 0.7321) / 0.1) ** 2)
     # The mean of what lies within 5 % of the mean frequency around the cell of the peak: cells are 1 % wide.
     assert _peak_frequency(omega, bump, 0.74) == pytest.approx(0.7321, rel=0.01)
-    # What is spread below 0 comes back: half of a pile beside rest would be lost, and be the lower peak.
+    # What is spread below 0 comes back: half of a pile beside rest would else be lost there.
     waves, energy = np.array([0.004, 0.6]), np.array([1.0, 1.5])
     assert _peak_frequency(waves, energy, 0.4) == pytest.approx(0.004, rel=1e-9)
     waves, energy = np.array([0.5, 0.9, 1.4]), np.array([0.1, 3.0, 0.2])
