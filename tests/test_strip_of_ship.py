@@ -155,6 +155,10 @@ def test_forms_and_sections_without_strips_are_refused() -> None:
 def test_the_store_keeps_the_two_forms_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PANELSIM_CACHE", str(tmp_path))
     ship = ship_of("wigley_iii")
+    solved = {form: strips("wigley_iii", form) for form in ("close-fit", "lewis")}
+    monkeypatch.setattr(
+        HydroDatabase, "compute", lambda *_, section_form="close-fit", **__: solved[section_form]
+    )
     lewis = database_for(ship, method="strip", section_form="lewis")
     assert stored_database(ship, "strip") is None
     close_fit = database_for(ship, method="strip")

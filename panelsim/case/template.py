@@ -63,6 +63,7 @@ panel_area = {default_panel_area(form):.3g}              # m2, nominal
 
 [hydrodynamics]
 method = "bem"                  # bem | strip, or file = "coefficients.nc", from `panelsim hydro`
+# section_form = "lewis"        # with "strip": Lewis forms in place of the outlines of the sections
 # transom_terms = true          # end terms of a wet transom at speed: see docs/transom.md
 
 [seaway]
