@@ -1,7 +1,10 @@
 """Restart: a run that goes on is, bit for bit, the run that never stopped; one of another run is refused."""
 
+import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -10,9 +13,15 @@ import pytest
 from panelsim.conventions import KNOT
 from panelsim.errors import PanelsimError
 from panelsim.hydro.database import HydroDatabase
+from panelsim.hydro.roll_damping.terms import RollDampingTerms
 from panelsim.loads.supplementary import Supplementary
+from panelsim.motion.batch import Batch, Member
+from panelsim.motion.equations import EquationsOfMotion
 from panelsim.motion.history import History
+from panelsim.motion.known_loads import KnownLoads
+from panelsim.motion.march import Limits, Record, march
 from panelsim.motion.simulate import simulate_batch
+from panelsim.motion.stepper import State
 from panelsim.motion.steppers import STEPPERS
 from panelsim.seaway.frequencies import EvenFrequencies
 from panelsim.seaway.random import RandomSeaway
@@ -22,6 +31,7 @@ from panelsim.seaway.spectra.bretschneider import Bretschneider
 from panelsim.ship.ship import Ship
 
 Run = Callable[..., History]
+Identified = tuple[Batch, tuple[Any, ...]]
 
 SEA = RandomSeaway(Bretschneider(7.5, 9.9), EvenFrequencies(0.2, 2.0, 0.1), np.deg2rad(150.0), seed=1001)
 GIVEN: dict[str, Any] = {
@@ -161,3 +171,156 @@ def test_histories_of_a_batch_are_cut_at_one_time(
         simulate_batch(halifax, [SEA, SEA], resume=[begun, other], **given)
     with pytest.raises(PanelsimError, match="not one of the histories to go on from for each seaway"):
         simulate_batch(halifax, [SEA, SEA], resume=[begun], **given)
+
+
+# --- what a run is known by --------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def identified(run_halifax: Run) -> Identified:
+    """A batch of one and what its identity is made of."""
+    taken: list[Identified] = []
+    identities = Batch._identities
+
+    def listening(self: Batch, *of: Any) -> list[dict[str, Any]]:
+        taken.append((self, of))
+        return identities(self, *of)
+
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(Batch, "_identities", listening)
+        run_halifax(SEA, duration=1.0, **GIVEN)
+    return taken[0]
+
+
+class Changed:
+    """An object, but for the attributes that are given."""
+
+    def __init__(self, found: object, **values: object) -> None:
+        self.__dict__.update(values, found=found)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.__dict__["found"], name)
+
+
+PARTS: dict[str, tuple[str, Callable[[Any, EquationsOfMotion, KnownLoads], tuple[Any, Any, Any]]]] = {
+    "density": ("water", lambda b, e, k: (Changed(b, ship=Changed(b.ship, water_density=990.0)), e, k)),
+    "gravity": ("water", lambda b, e, k: (Changed(b, ship=Changed(b.ship, gravity=9.8)), e, k)),
+    "inertia": ("ship", lambda b, e, k: (Changed(b, ship=Changed(b.ship, inertia=2 * b.ship.inertia)), e, k)),
+    "waterline": ("ship", lambda b, e, k: (Changed(b, ship=Changed(b.ship, waterline=0.1)), e, k)),
+    "vertices": ("ship", lambda b, e, k: (Changed(b, ship=Changed(b.ship, vertices=-b.ship.vertices)), e, k)),
+    "capsize angle": ("capsize angle", lambda b, e, k: (Changed(b, capsize_angle=1.0), e, k)),
+    "transom": ("choice of transom terms", lambda b, e, k: (Changed(b, transom=True), e, k)),
+    "added mass": (
+        "set of coefficients",
+        lambda b, e, k: (Changed(b, database=doubled(b, "added_mass")), e, k),
+    ),
+    "damping": (
+        "set of coefficients",
+        lambda b, e, k: (Changed(b, database=doubled(b, "radiation_damping")), e, k),
+    ),
+    "load matrix": ("set of coefficients", lambda b, e, k: (b, with_doubled(e, "load_matrix"), k)),
+    "memory matrix": ("set of coefficients", lambda b, e, k: (b, with_doubled(e, "memory_matrix"), k)),
+    "waves' loads": (
+        "set of coefficients",
+        lambda b, e, k: (b, e, replace(k, amplitudes=[2 * a for a in k.amplitudes])),
+    ),
+    "waves' turning": (
+        "set of coefficients",
+        lambda b, e, k: (b, e, replace(k, turning=[2 * a for a in k.turning])),
+    ),
+    "second order": ("sea", lambda b, e, k: (Changed(b, members=[of_second_order(b.members[0])]), e, k)),
+}
+
+
+def doubled(batch: Batch, name: str) -> Any:
+    return Changed(batch.database, **{name: 2 * getattr(batch.database, name)})
+
+
+def with_doubled(equations: EquationsOfMotion, name: str) -> Any:
+    radiation = equations.radiation
+    return Changed(equations, radiation=Changed(radiation, **{name: 2 * getattr(radiation, name)}))
+
+
+def of_second_order(member: Member) -> Any:
+    return Changed(member, waves=Changed(member.waves, second_order=True))
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_each_part_of_a_run_is_in_its_identity(part: str, identified: Identified) -> None:
+    """Another density, another inertia, …: that word of the identity changes, and no other."""
+    batch, (equations, known, *rest) = identified
+    word, change = PARTS[part]
+    (mine,) = batch._identities(equations, known, *rest)
+    batch, equations, known = change(batch, equations, known)
+    (other,) = Batch._identities(batch, equations, known, *rest)
+    assert {name for name in mine if mine[name] != other[name]} == {word}
+
+
+@pytest.mark.parametrize("name", ["potential_real", "potential_imag", "potential_infinite"])
+def test_coefficients_with_another_diffraction_are_refused(
+    name: str, begun: History, run_halifax: Run, halifax_database: HydroDatabase
+) -> None:
+    """The same added mass and damping: only what the waves do is another."""
+    dataset = halifax_database.dataset.copy()
+    dataset[name] = dataset[name] * np.float32(1.5)
+    with pytest.raises(PanelsimError, match="its set of coefficients is another"):
+        run_halifax(SEA, duration=3.0, resume=begun, **(GIVEN | {"database": HydroDatabase(dataset)}))
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"outcome": "capsized"}, "ended for good"),
+        ({"restart_format": 2}, r"one of format 2[\s\S]*format 1"),
+        ({"identity": {"version of panelsim": "0.0.1"}}, "its version of panelsim is another"),
+        ({"identity": {"capsize angle": 1.0}}, "its capsize angle is another"),
+    ],
+)
+def test_histories_that_no_run_goes_on_from(
+    change: dict[str, Any], words: str, begun: History, run_halifax: Run
+) -> None:
+    tree = begun.tree.copy(deep=True)
+    group = tree.children["restart"]
+    if "outcome" in change:
+        tree.attrs["outcome"] = change["outcome"]
+    if "restart_format" in change:
+        group.attrs["restart_format"] = change["restart_format"]
+    if "identity" in change:
+        theirs = json.loads(group.attrs["identity"]) | change["identity"]
+        group.attrs["identity"] = json.dumps(theirs)
+    with pytest.raises(PanelsimError, match=words):
+        run_halifax(SEA, duration=3.0, resume=History(tree), **GIVEN)
+
+
+def test_numbers_of_any_kind_make_the_same_run(begun: History, run_halifax: Run) -> None:
+    """NumPy's whole numbers and short floats, refused by JSON, are plain ones from the door on."""
+    kinds = {"ramp": np.int64(2), "time_step": np.float32(0.25), "capsize_angle": np.float64(np.pi / 2)}
+    assert run_halifax(SEA, duration=np.int32(1), **(GIVEN | kinds)).same_bits(begun)
+    damping = RollDampingTerms(linear=np.float32(1e7), quadratic=np.int64(2))  # type: ignore[arg-type]
+    first = run_halifax(SEA, duration=1.0, roll_damping=damping, **GIVEN)
+    again = run_halifax(SEA, duration=1.0, roll_damping=RollDampingTerms(1e7, 2.0), resume=first, **GIVEN)
+    assert again.same_bits(first)
+
+
+def test_an_interrupt_between_an_instant_and_its_state_keeps_neither() -> None:
+    """It falls where the record has the instant already, and the state is not yet the last one."""
+    record = Record(4, 1, ("weight",))
+    states = [
+        State(n, np.full((1, 12), n / 10), np.empty((1, 0)), np.zeros((1, 6)), np.zeros((1, 1, 6)))
+        for n in range(3)
+    ]
+    add = record.add
+
+    def stopped(state: State) -> None:
+        add(state)
+        if state.step == 2:
+            raise KeyboardInterrupt
+
+    record.add = stopped  # type: ignore[method-assign]
+    record.add(states[0])
+    stepper: Any = SimpleNamespace(step=lambda state: states[state.step + 1])
+    limits = Limits(capsize_angle=1.0, heave=1.0, drift=1.0)
+    last = march(stepper, states[0], record, steps=3, time_step=0.5, limits=limits)
+    assert last.step == 1
+    assert record.of(0).displacement[:, 2].tolist() == [0.0, 0.1]
+    assert record.of(0).outcome == "interrupted"
