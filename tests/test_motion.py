@@ -289,6 +289,9 @@ def test_limits_name_the_outcome() -> None:
     assert outcome(limits, yaw=-1.1) == "diverged"
     assert outcome(limits, roll=-1.6, roll_before=-1.5) == "capsized"
     assert outcome(limits, roll=1.6, roll_before=-1.5) == "diverged"
+    # 45° in a step part the two.
+    assert outcome(limits, roll=1.6, roll_before=0.83) == "capsized"
+    assert outcome(limits, roll=1.6, roll_before=0.8) == "diverged"
     assert outcome(limits, roll=1.6, roll_before=1.5, heave=1e9) == "diverged"
     assert outcome(limits, pitch=-1.1) == "diverged"
     assert outcome(limits, surge=9000.0, sway=-9000.0) == "diverged"

@@ -77,6 +77,17 @@ def test_the_history_has_the_load(run_halifax: Run) -> None:
     assert _facts(without)["roll damping"] == "none"
 
 
+def test_the_slope_at_a_rate_is_that_of_the_moment() -> None:
+    """2 b2 |p| + 3 b3 p² against central differences, on either side."""
+    load = RollDamping([TERMS, RollDampingTerms(3.0)])
+    for rate in (-0.3, 0.2):
+        ahead, behind = (np.zeros((2, 6)) for _ in range(2))
+        ahead[:, 3], behind[:, 3] = rate + 1e-5, rate - 1e-5
+        change = (load.beside_slope(ahead) - load.beside_slope(behind)) / 2e-5
+        # A cubic: the differences are off by b3 times the square of 1e-5, a part in 1e10.
+        np.testing.assert_allclose(load.slope_beside(rate)[:, :, 3], change, rtol=1e-8)
+
+
 def test_the_steppers_agree(run_halifax: Run) -> None:
     """The exponential scheme at 0.4 s against RK4 at 0.1 s, damping that halves a roll in two cycles."""
     common = FREE | {"model": "nonlinear", "roll_damping": TERMS, "duration": 20.0}

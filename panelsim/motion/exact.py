@@ -15,7 +15,7 @@ Matrix = TypeVar("Matrix", FloatArray, ComplexArray)
 _TERMS = 20
 # Multiplications up to which the linear algebra takes one thread. The bits of larger products depend on how
 # many threads it has.
-_OF_ONE_THREAD = 200_000
+_OF_ONE_THREAD = 50_000
 
 
 def advance(system: FloatArray, time_step: float) -> FloatArray:
@@ -77,8 +77,12 @@ def harmonic_inputs(
 
 def product(left: FloatArray, right: Matrix) -> Matrix:
     """left @ right (n, m) of (n, k) and (k, m), the same bits whatever the number of threads."""
-    rows = max(_OF_ONE_THREAD // max(right.size, 1), 1)
-    found: Matrix = np.concatenate([left[i : i + rows] @ right for i in range(0, len(left), rows)])
+    found: Matrix = np.empty((len(left), right.shape[1]), dtype=right.dtype)
+    side = max(int(np.sqrt(_OF_ONE_THREAD / len(right))), 1)
+    for row in range(0, found.shape[0], side):
+        for column in range(0, found.shape[1], side):
+            block = np.s_[row : row + side], np.s_[column : column + side]
+            found[block] = left[block[0]] @ right[:, block[1]]
     return found
 
 
