@@ -90,6 +90,7 @@ _HOMES = {
     "RollDecay": "hydro.roll_damping.decay",
     "fit_roll_decay": "hydro.roll_damping.decay",
     "IkedaDamping": "hydro.roll_damping.ikeda",
+    "rolling_hull": "case.roll_damping_section",
     "ikeda_damping": "hydro.roll_damping.ikeda",
     "ikeda_terms": "hydro.roll_damping.ikeda",
     "RollingHull": "hydro.roll_damping.hull_data",
@@ -126,6 +127,7 @@ __all__ = sorted(_HOMES)
 
 if TYPE_CHECKING:
     from panelsim.case import Case as Case
+    from panelsim.case.roll_damping_section import rolling_hull as rolling_hull
     from panelsim.conventions import KNOT as KNOT
     from panelsim.conventions import Dof as Dof
     from panelsim.errors import PanelsimError as PanelsimError

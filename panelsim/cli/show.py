@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from rich.console import Console
+from rich.padding import Padding
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
@@ -174,7 +175,7 @@ def show_coverage(database: HydroDatabase) -> None:
     """What a database covers, and where it comes from."""
     out.print("Coefficients", style="bold")
     for line in coverage(database).splitlines():
-        say(f"  {line}")
+        out.print(Padding(line, (0, 0, 0, 2)))
 
 
 def _sea(case: Case) -> str:

@@ -26,7 +26,7 @@ from panelsim.seaway.checks import require_number, require_positive
 _LIFT_MIDSHIP = (0.92, 0.97)
 _LIFT_KAPPA = (0.0, 0.1, 0.3)
 A_ROLLING_HULL = (
-    "a RollingHull: particulars and immersed sections; panelsim.case.roll_damping_section.rolling_hull(ship)"
+    "a RollingHull: particulars and immersed sections; panelsim.rolling_hull(ship)"
     " makes one of a Ship with a table of offsets"
 )
 # Amplitudes at which terms are fitted: what ships roll, and what the method was measured at.
