@@ -1,8 +1,8 @@
 """The command `decay`: a case is run, a history or a record read, and the known damping is printed."""
 
 import re
-import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 
 from panelsim.case import Case
-from panelsim.cli import main
 from panelsim.conventions import Dof
 from panelsim.hydro.roll_damping.natural import natural_roll
 from panelsim.hydro.store import database_for
@@ -24,19 +23,9 @@ PERIOD, LINEAR, QUADRATIC = 9.0, 0.04, 0.3
 
 
 @pytest.fixture
-def call(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Call:
-    """Call `panelsim decay` in a folder of its own: exit code, output, errors."""
-    monkeypatch.chdir(tmp_path)
-
-    def called(*arguments: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["panelsim", "decay", *map(str, arguments)])
-        with pytest.raises(SystemExit) as ended:
-            main()
-        out, err = capsys.readouterr()
-        assert "Traceback" not in err
-        return int(ended.value.code or 0), out, err
-
-    return called
+def call(panelsim: Callable[..., tuple[int, str, str]]) -> Callable[..., tuple[int, str, str]]:
+    """Call `panelsim decay`: exit code, output, errors."""
+    return partial(panelsim, "decay")
 
 
 @pytest.fixture

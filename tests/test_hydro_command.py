@@ -4,7 +4,6 @@ Files from elsewhere are those of Capytaine itself, its dataset and its WAMIT ex
 """
 
 import re
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -16,7 +15,6 @@ import xarray as xr
 from capytaine.io.wamit import export_to_wamit
 
 import panelsim as ps
-from panelsim.cli import main
 from panelsim.hydro import bem
 
 Call = Callable[..., tuple[int, str, str]]
@@ -32,17 +30,12 @@ DIRECTIONS_DEG = np.array([0.0, 30.0, 60.0, 90.0, 120.0, 150.0, 180.0])
 
 
 @pytest.fixture
-def call(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Call:
-    """Call `panelsim` in a folder of its own: exit code, output in one line, errors."""
-    monkeypatch.chdir(tmp_path)
+def call(panelsim: Call) -> Call:
+    """Call `panelsim`: exit code, output and errors in one line each."""
 
     def called(*arguments: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["panelsim", *map(str, arguments)])
-        with pytest.raises(SystemExit) as ended:
-            main()
-        out, err = capsys.readouterr()
-        assert "Traceback" not in err
-        return int(ended.value.code or 0), " ".join(out.split()), " ".join(err.split())
+        code, out, err = panelsim(*arguments)
+        return code, " ".join(out.split()), " ".join(err.split())
 
     return called
 

@@ -2,7 +2,8 @@
 
 import json
 import re
-import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,6 @@ from matplotlib.figure import Figure
 
 import panelsim
 from panelsim.case import Case
-from panelsim.cli import main
 from panelsim.cli.respond import numbers
 from panelsim.conventions import KNOT
 from panelsim.hydro.roll_damping.terms import RollDampingTerms
@@ -27,18 +27,9 @@ QUICK = ["--set", "ship.panel_area=20", "--headings", "0,90,150", "--speeds", "0
 
 
 @pytest.fixture
-def call(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):  # type: ignore[no-untyped-def]
-    """Call `panelsim response` through its entry point: exit code, output, errors."""
-
-    def called(*arguments: object) -> tuple[int, str, str]:
-        capsys.readouterr()
-        monkeypatch.setattr(sys, "argv", ["panelsim", "response", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            main()
-        captured = capsys.readouterr()
-        return int(end.value.code or 0), captured.out, captured.err
-
-    return called
+def call(panelsim: Callable[..., tuple[int, str, str]]) -> Callable[..., tuple[int, str, str]]:
+    """Call `panelsim response`: exit code, output, errors."""
+    return partial(panelsim, "response")
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,6 @@ import json
 import shlex
 import shutil
 import signal
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from panelsim.case import Case
-from panelsim.cli import commands, main
+from panelsim.cli import commands
 from panelsim.errors import PanelsimError
 from panelsim.hull.form import hull_folder
 from panelsim.hydro.database import HydroDatabase
@@ -24,22 +23,6 @@ from panelsim.studies.going_on import begun_run
 Call = Callable[..., tuple[int, str, str]]
 SEA = "significant_wave_height = 3.0\npeak_period = 9.0\nwave_heading_deg = 150\nseed = 1001\n"
 WITHOUT_TIMINGS = ("realtime_factor", "cpu_seconds", "jit_seconds")
-
-
-@pytest.fixture
-def call(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Call:
-    """Call `panelsim` in a folder of its own: exit code, output, errors."""
-    monkeypatch.chdir(tmp_path)
-
-    def called(*arguments: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["panelsim", *map(str, arguments)])
-        with pytest.raises(SystemExit) as ended:
-            main()
-        out, err = capsys.readouterr()
-        assert "Traceback" not in err
-        return int(ended.value.code or 0), out, err
-
-    return called
 
 
 @pytest.fixture(autouse=True)
@@ -119,13 +102,13 @@ def numbers(folder: Path) -> dict[str, object]:
     return {name: value for name, value in found.items() if name not in WITHOUT_TIMINGS}
 
 
-def test_an_interrupted_run_tells_the_command_that_finishes_it(call: Call, case_file: Path) -> None:
+def test_an_interrupted_run_tells_the_command_that_finishes_it(panelsim: Call, case_file: Path) -> None:
     """Stopped before the first step, in the ramp and after it: what is typed next makes the whole run."""
     change = ("--set", "run.duration=16")
-    assert call("run", case_file, "--out", "whole", *change)[0] == 0
+    assert panelsim("run", case_file, "--out", "whole", *change)[0] == 0
     whole = History.load(Path("whole/history.nc"))
     with interrupted_at(0.0):
-        code, _, err = call("run", case_file, "--out", "my runs/1", *change)
+        code, _, err = panelsim("run", case_file, "--out", "my runs/1", *change)
     for stop in (2.0, 10.0, None):
         assert code == 3
         begun = History.load(Path("my runs/1/history.nc"))
@@ -134,35 +117,35 @@ def test_an_interrupted_run_tells_the_command_that_finishes_it(call: Call, case_
         command = shlex.split(told.removeprefix("To go on: panelsim "))
         assert command[-1] == "--resume" and command[2:4] == ["--out", "my runs/1"]
         if stop is None:
-            code, out, err = call(*command)
+            code, out, err = panelsim(*command)
         else:
             with interrupted_at(stop):
-                code, out, err = call(*command)
+                code, out, err = panelsim(*command)
     assert code == 0 and "Going on" in out and err == ""
     assert History.load(Path("my runs/1/history.nc")).same_bits(whole)
     assert numbers(Path("my runs/1")) == numbers(Path("whole"))
     assert contents(Path("my runs/1")).keys() == contents(Path("whole")).keys()
 
 
-def test_a_finished_run_is_made_longer(call: Call, case_file: Path) -> None:
-    assert call("run", case_file)[0] == 0
+def test_a_finished_run_is_made_longer(panelsim: Call, case_file: Path) -> None:
+    assert panelsim("run", case_file)[0] == 0
     folder = Path("runs/my ship")
     short = History.load(folder / "history.nc")
     (folder / "motions.csv").write_text("of the shorter run")
     with interrupted_at(1e9) as told:
-        code, out, _ = call("run", case_file, "--set", "run.duration=20", "--resume")
+        code, out, _ = panelsim("run", case_file, "--set", "run.duration=20", "--resume")
     # It went on, and did not do the same again.
     assert told[0] == pytest.approx(16.0)
     assert code == 0 and "Going on at 16 s of 24 s" in out
     assert not (folder / "motions.csv").exists()
-    assert call("run", case_file, "--set", "run.duration=20", "--out", "whole")[0] == 0
+    assert panelsim("run", case_file, "--set", "run.duration=20", "--out", "whole")[0] == 0
     longer, whole = (History.load(f / "history.nc") for f in (folder, Path("whole")))
     assert longer.same_bits(whole) and not longer.same_bits(short)
     # Nothing left to do is the run itself; a shorter one than there is cannot be.
-    assert call("run", case_file, "--set", "run.duration=20", "--resume")[0] == 0
+    assert panelsim("run", case_file, "--set", "run.duration=20", "--resume")[0] == 0
     assert History.load(folder / "history.nc").same_bits(whole)
     before = contents(folder)
-    code, out, err = call("run", case_file, "--resume")
+    code, out, err = panelsim("run", case_file, "--resume")
     assert (code, out) == (2, "")
     assert "longer than the case.\n  got: 20 s after the ramp\n  allowed: at most run.duration = 12 s" in err
     with pytest.raises(PanelsimError, match="longer than the case"):  # by one step
@@ -182,12 +165,12 @@ def test_a_finished_run_is_made_longer(call: Call, case_file: Path) -> None:
     ],
 )
 def test_a_run_of_another_case_is_refused_and_kept(
-    call: Call, case_file: Path, begun: Path, tmp_path: Path, change: str, words: str
+    panelsim: Call, case_file: Path, begun: Path, tmp_path: Path, change: str, words: str
 ) -> None:
     """On the command line and by the function; the folder is as it was, to the bit."""
     shutil.copytree(begun, tmp_path / "run")
     before = contents(tmp_path / "run")
-    code, _, err = call("run", case_file, "--out", "run", "--resume", "--set", change)
+    code, _, err = panelsim("run", case_file, "--out", "run", "--resume", "--set", change)
     assert code == 2 and err.startswith("error: ") and err.count("error: ") == 1
     assert words in err
     with pytest.raises(PanelsimError, match=words.replace(".", r"\.")):
@@ -196,33 +179,33 @@ def test_a_run_of_another_case_is_refused_and_kept(
 
 
 def test_what_only_the_files_of_a_case_tell_apart_is_refused_too(
-    call: Call, case_file: Path, begun: Path, tmp_path: Path
+    panelsim: Call, case_file: Path, begun: Path, tmp_path: Path
 ) -> None:
     """The same words in the case, other coefficients in the file that it names."""
     shutil.copytree(begun, tmp_path / "run")
     database = HydroDatabase.load(hull_folder("halifax") / "hydro.nc")
     database.save(tmp_path / "coefficients.nc")
     change = ("--set", "hydrodynamics.file=coefficients.nc", "--out", "run")
-    code, _, err = call("run", case_file, *change, "--resume")
+    code, _, err = panelsim("run", case_file, *change, "--resume")
     assert code == 2 and "hydrodynamics.file not given there, coefficients.nc here" in err
-    assert call("run", case_file, *change, "--force")[0] == 0
+    assert panelsim("run", case_file, *change, "--force")[0] == 0
     dataset = database.dataset.copy()
     dataset["radiation_damping"] = dataset["radiation_damping"] * 1.0001
     HydroDatabase(dataset).save(tmp_path / "coefficients.nc", overwrite=True)
     before = contents(tmp_path / "run")
-    code, _, err = call("run", case_file, *change, "--resume")
+    code, _, err = panelsim("run", case_file, *change, "--resume")
     assert code == 2 and "its set of coefficients is another" in err
     assert contents(tmp_path / "run") == before
 
 
-def test_a_folder_without_a_run_is_refused(call: Call, case_file: Path, tmp_path: Path) -> None:
-    code, _, err = call("run", case_file, "--out", "none", "--resume")
+def test_a_folder_without_a_run_is_refused(panelsim: Call, case_file: Path, tmp_path: Path) -> None:
+    code, _, err = panelsim("run", case_file, "--out", "none", "--resume")
     assert code == 2 and "no run to go on with" in err and "leave out --resume" in err
     assert not (tmp_path / "none").exists()
-    code, _, err = call("run", case_file, "--resume", "--force")
+    code, _, err = panelsim("run", case_file, "--resume", "--force")
     assert code == 2 and "give one of them" in err
     (tmp_path / "cut").mkdir()
     (tmp_path / "cut/history.nc").write_text("no history")
-    code, _, err = call("run", case_file, "--out", "cut", "--resume")
+    code, _, err = panelsim("run", case_file, "--out", "cut", "--resume")
     assert code == 2 and "damaged" in err
     assert contents(tmp_path / "cut") == {"history.nc": b"no history"}

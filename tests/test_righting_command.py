@@ -1,7 +1,6 @@
 """`panelsim righting` and `panelsim hull --sections`: what they print, write, draw and refuse."""
 
 import re
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,7 +9,6 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from panelsim.cli import main
 from panelsim.cli.righting import HEELS as HEELS_OF_THE_COMMAND
 from panelsim.cli.righting import show_righting
 from panelsim.hull.panel_mesh import PanelMesh
@@ -26,41 +24,24 @@ HEELS = np.deg2rad(np.arange(0, 181, 30))
 Call = Callable[..., tuple[int, str, str]]
 
 
-@pytest.fixture
-def call(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Call:
-    """Call `panelsim` with these arguments through its entry point: exit code, output, errors."""
-
-    def called(*arguments: object) -> tuple[int, str, str]:
-        capsys.readouterr()
-        monkeypatch.setattr(sys, "argv", ["panelsim", *map(str, arguments)])
-        monkeypatch.setenv("COLUMNS", "80")
-        with pytest.raises(SystemExit) as ended:
-            main()
-        out, err = capsys.readouterr()
-        assert "Traceback" not in err
-        return int(ended.value.code or 0), out, err
-
-    return called
-
-
 @pytest.fixture(scope="module")
 def frigate() -> Ship:
     return load_ship("frigate", 20.0)
 
 
 @pytest.fixture
-def case(call: Call, tmp_path: Path) -> Path:
+def case(panelsim: Call, tmp_path: Path) -> Path:
     """A case file of the frigate in large panels."""
     file = tmp_path / "frigate.toml"
-    call("new", file, "--ship", "frigate")
+    panelsim("new", file, "--ship", "frigate")
     text, count = re.subn(r"(?m)^#? *panel_area = \S+", "panel_area = 20.0", file.read_text())
     assert count == 1
     file.write_text(text)
     return file
 
 
-def test_the_table_of_calm_water(call: Call, case: Path, frigate: Ship) -> None:
-    code, out, err = call("righting", case)
+def test_the_table_of_calm_water(panelsim: Call, case: Path, frigate: Ship) -> None:
+    code, out, err = panelsim("righting", case)
     assert (code, err) == (0, "")
     found = righting_arm(frigate, np.deg2rad([0, 30, 60]))
     words = [line.split() for line in out.splitlines()]
@@ -83,11 +64,11 @@ def test_arms_of_a_model_have_more_digits(capsys: pytest.CaptureFixture[str], ba
 
 
 def test_a_wave_gives_crest_and_trough_and_its_files(
-    call: Call, case: Path, frigate: Ship, tmp_path: Path
+    panelsim: Call, case: Path, frigate: Ship, tmp_path: Path
 ) -> None:
     file = tmp_path / "out" / "gz.csv"
     wave = ("--wave-length", 120, "--wave-height", 6)
-    code, out, err = call("righting", case, *wave, "-o", file)
+    code, out, err = panelsim("righting", case, *wave, "-o", file)
     assert (code, err) == (0, "")
     assert out.count("crest amidships") == out.count("trough amidships") == 2
     assert "area 30 to 40 deg [m rad] " in out  # no name of a row or a column is broken
@@ -107,9 +88,9 @@ def test_a_wave_gives_crest_and_trough_and_its_files(
     assert table["heel_deg"][6] == 30.0
     assert sorted(path.name for path in file.parent.iterdir()) == ["gz.csv", "gz.png"]
 
-    code, out, err = call("righting", case, *wave, "-o", file)
+    code, out, err = panelsim("righting", case, *wave, "-o", file)
     assert code == 2 and "exists already" in err and not out
-    code, out, _ = call("righting", case, *wave, "--crest", 10, "--pressure", "hydrostatic")
+    code, out, _ = panelsim("righting", case, *wave, "--crest", 10, "--pressure", "hydrostatic")
     hydrostatic = righting_arm_in_wave(frigate, HEELS, FrozenWave(120.0, 6.0, 10.0), pressure="hydrostatic")
     assert code == 0 and f"{hydrostatic.gm:.3f}" in out
     assert "crest 10 m forward of midships" in out and "area 30 to 40 deg [m rad] " in out
@@ -133,15 +114,15 @@ def test_a_wave_gives_crest_and_trough_and_its_files(
         (["-o", "gz.txt"], ["gz.txt", ".csv"]),
     ],
 )
-def test_options_that_do_not_go_together(call: Call, arguments: list[object], words: list[str]) -> None:
-    code, out, err = call("righting", "frigate", *arguments)
+def test_options_that_do_not_go_together(panelsim: Call, arguments: list[object], words: list[str]) -> None:
+    code, out, err = panelsim("righting", "frigate", *arguments)
     assert code == 2 and not out
     assert err.startswith("error: ") and err.count("error: ") == 1
     assert all(word in err for word in words), err
 
 
-def test_a_ship_that_is_none(call: Call) -> None:
-    code, _, err = call("righting", "frigat")
+def test_a_ship_that_is_none(panelsim: Call) -> None:
+    code, _, err = panelsim("righting", "frigat")
     assert code == 2 and "frigate" in err
 
 
@@ -180,8 +161,8 @@ def test_the_code_of_the_page_runs() -> None:
 
 
 class TestSections:
-    def test_the_body_plan_of_a_hull(self, call: Call, tmp_path: Path, drawn: list[Figure]) -> None:
-        code, _, err = call("hull", "s175", "--sections", tmp_path / "plan.png")
+    def test_the_body_plan_of_a_hull(self, panelsim: Call, tmp_path: Path, drawn: list[Figure]) -> None:
+        code, _, err = panelsim("hull", "s175", "--sections", tmp_path / "plan.png")
         assert code == 0 and "Wrote" in err and (tmp_path / "plan.png").exists()
         plan, areas = drawn[0].axes
         legend = plan.get_legend()
@@ -208,10 +189,10 @@ class TestSections:
         circles = [line for line in drawn[0].axes[1].lines if line.get_marker() == "o"]
         assert 10 <= len(circles) < 20
 
-    def test_refusals(self, call: Call, tmp_path: Path) -> None:
-        code, _, err = call("hull", "box", "--sections", tmp_path / "plan.jpg")
+    def test_refusals(self, panelsim: Call, tmp_path: Path) -> None:
+        code, _, err = panelsim("hull", "box", "--sections", tmp_path / "plan.jpg")
         assert code == 2 and ".png" in err
         (tmp_path / "plan.png").touch()
-        code, _, err = call("hull", "box", "--sections", tmp_path / "plan.png")
+        code, _, err = panelsim("hull", "box", "--sections", tmp_path / "plan.png")
         assert code == 2 and "--force" in err
         assert (tmp_path / "plan.png").stat().st_size == 0

@@ -15,7 +15,9 @@ from panelsim.loads.radiation import Radiation
 from panelsim.loads.supplementary import Supplementary
 from panelsim.motion.equations import EquationsOfMotion
 from panelsim.motion.exact import advance, harmonic_inputs, polynomial_inputs
+from panelsim.motion.exponential import forward, spread
 from panelsim.motion.history import History
+from panelsim.motion.linear_system import LinearSystem
 from panelsim.motion.requirements import LONGEST_STEP
 from panelsim.motion.run_loads import run_loads
 from panelsim.motion.runge_kutta import RungeKutta4
@@ -63,6 +65,42 @@ def test_polynomial_inputs_are_integrals_of_lagrange_polynomials(nodes: tuple[in
 
         expected = integral(lambda s, share=share: share(s) * ENTRANCE)
         assert np.abs((found[j] - expected) / UNIT[:, None]).max() < 1e-11
+
+
+@pytest.mark.parametrize("order", [0, 1, 2])
+def test_a_residual_that_is_a_polynomial_is_followed_exactly(order: int) -> None:
+    """Predicted from a constant, a line, a parabola through its past; then corrected by its new value.
+
+    A wrong guess of the new value is mended by the correction: it is the polynomial through the new value and
+    the last ones. From the first step on that is a line, then a parabola. 1e-12: rounding.
+    """
+    random, step = np.random.default_rng(3), 0.4
+    matrix = random.normal(size=(15, 15)) - 3.0 * np.eye(15)
+    matrix[:6] = np.eye(6, 15, 6)
+    system = LinearSystem(matrix, random.normal(size=(6, 15)))
+    y, powers = random.normal(size=15), random.normal(size=(order + 1, 6))
+
+    def residual(time: float) -> np.ndarray:
+        return np.polynomial.polynomial.polyval(time, powers)
+
+    driven, _ = quad_vec(
+        lambda s: expm(matrix * (step - s)) @ system.entrance @ residual(s), 0.0, step, epsabs=1e-13
+    )
+    exact = expm(matrix * step) @ y + driven
+    past = np.concatenate([residual(0.0), residual(-step), residual(-2.0 * step)])
+    ahead = forward(system, step, order) @ np.concatenate([y, past])
+    np.testing.assert_allclose(ahead[:15], exact, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(ahead[15:21], residual(step), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(ahead[21:], matrix[6:12] @ exact, rtol=0, atol=1e-11)
+    if order < 2:
+        return
+    guessed = forward(system, step, 1) @ np.concatenate([y, past])
+    lines = forward(system, step, 2) @ np.concatenate([y, past[:12], 2 * past[6:12] - past[:6]])
+    np.testing.assert_allclose(lines[:15], guessed[:15], rtol=0, atol=1e-12)
+    change = spread(system, step, 1) @ (residual(step) - guessed[15:21])
+    np.testing.assert_allclose(guessed[:15] + change[:15], exact, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(change[15:21], matrix[6:12] @ change[:15], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(change[21:], system.loads @ change[:15], rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("frequency", [0.0, -0.3, 1.0, 6.2, 60.0])
