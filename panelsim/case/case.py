@@ -1,13 +1,13 @@
 """Case files: a checked TOML description that becomes the same objects that a script would build."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from panelsim.case.reading import read_case_file
+from panelsim.case.reading import changed_case_file, read_case_file
 from panelsim.case.roll_damping_section import (
     build_roll_damping,
     require_one_roll_damping,
@@ -50,6 +50,17 @@ class Case:
         """
         path = Path(path)
         return cls(read_case_file(path, overrides), path.resolve().parent, path.stem)
+
+    def changed(self, changes: Mapping[str, Any]) -> "Case":
+        """This case with other values, {"run.time_step": 0.1}; None takes a key away.
+
+        The ship is the same object where nothing of her is changed. Raises PanelsimError for keys that are
+        unknown and values that no case may have.
+        """
+        other = Case(changed_case_file(self.file, changes, self.name), self.folder, self.name)
+        if other.file.ship == self.file.ship and "ship" in self.__dict__:
+            other.__dict__["ship"] = self.ship
+        return other
 
     @cached_property
     def ship(self) -> Ship:

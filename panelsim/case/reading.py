@@ -2,7 +2,7 @@
 
 import re
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,28 @@ def read_case_file(path: Path, overrides: Sequence[str] = ()) -> CaseFile:
         return CaseFile.model_validate(raw)
     except ValidationError as error:
         raise readable(error, str(path)) from None
+
+
+def changed_case_file(file: CaseFile, changes: Mapping[str, Any], name: str) -> CaseFile:
+    """A case file with other values, {"run.time_step": 0.1}; None takes a key away.
+
+    Raises PanelsimError, that names the case and every key that is unknown or wrong.
+    """
+    raw = file.model_dump(mode="json", exclude_none=True)
+    for key, value in changes.items():
+        *tables, last = key.split(".")
+        table = raw
+        for part in tables:
+            table = table.setdefault(part, {})
+            if not isinstance(table, dict):
+                raise PanelsimError(f"The key reaches into {part}, which is no table", got=key)
+        table[last] = value
+        if value is None:
+            del table[last]
+    try:
+        return CaseFile.model_validate(raw)
+    except ValidationError as error:
+        raise readable(error, name) from None
 
 
 def _read_toml(path: Path) -> dict[str, Any]:

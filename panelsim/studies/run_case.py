@@ -6,15 +6,13 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from panelsim.case import Case
 from panelsim.files import replacing
 from panelsim.hydro.database import Progress as CoefficientProgress
 from panelsim.motion.history import History
 from panelsim.motion.march import Progress as RunProgress
-from panelsim.motion.simulate import simulate
 from panelsim.results.statistics import Statistics, statistics
+from panelsim.studies.case_history import case_history
 from panelsim.studies.going_on import HISTORY
 from panelsim.studies.output_folder import make_output_folder, refuse_occupied_folder, remove_if_empty
 from panelsim.view.recording import record
@@ -78,33 +76,8 @@ def _run_into(
     """Compute, simulate and write; `seconds` gets the time of each stage."""
     with _timed(seconds, "coefficients"):
         database = case.database(on_coefficients)
-    run = case.file.run
     with _timed(seconds, "run"):
-        history = simulate(
-            case.ship,
-            case.seaway,
-            speed=case.speed,
-            duration=run.duration,
-            time_step=run.time_step,
-            database=database,
-            model=run.model,
-            inertia=run.inertia,
-            stepper=run.stepper,
-            ramp=run.ramp,
-            stretching=case.file.seaway.stretching,
-            pressure_method=run.pressure_method,
-            pressure_rule=run.pressure_rule,
-            supplementary=case.supplementary,
-            roll_damping=case.roll_damping(database),
-            transom=case.transom(database),
-            capsize_angle=float(np.deg2rad(run.capsize_angle_deg)),
-            progress=on_run,
-            case=case.resolved(),
-            seed=case.file.seaway.seed if case.file.seaway.kind == "random" else None,
-            notes=case.warnings(),
-            points=case.points,
-            resume=resume,
-        )
+        history = case_history(case, database, resume=resume, progress=on_run)
     with _timed(seconds, "history and statistics"):
         for name in OLD_FILES:
             (folder / name).unlink(missing_ok=True)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import h5py  # type: ignore[import-untyped]
+import h5py
 from numpy.typing import ArrayLike
 
 from panelsim.errors import PanelsimError
