@@ -16,6 +16,8 @@ from panelsim.seaway.regular import RegularSeaway
 from panelsim.seaway.seaways import CalmSeaway
 from panelsim.ship.ship import Ship
 
+EXAMPLE = Path(__file__).parents[1] / "examples" / "halifax_sea_state_7.toml"
+
 RANDOM = """
 [ship]
 hull = "halifax"
@@ -393,3 +395,36 @@ def test_an_override_holds_one_key(tmp_path: Path) -> None:
 def test_what_is_nested_too_deeply_is_refused(tmp_path: Path, depth: int) -> None:
     assert "not valid TOML" in refusal(tmp_path, f"x = {'[' * depth}{']' * depth}")
     assert "nested too deeply" in refusal(tmp_path, RANDOM, f"x={'[' * depth}{']' * depth}")
+
+
+def test_a_changed_case_has_the_new_values_and_the_same_ship() -> None:
+    case = Case.load(EXAMPLE)
+    other = case.changed({"run.time_step": 0.1, "seaway.seed": 3, "supplementary.damping.roll": 3e7})
+    assert (other.file.run.time_step, other.file.seaway.seed) == (0.1, 3)
+    assert other.file.supplementary.damping.roll == 3e7  # type: ignore[union-attr]
+    assert case.file.run.time_step == 0.4
+    _ = case.ship
+    assert case.changed({"run.time_step": 0.1}).ship is case.ship
+    assert case.changed({"ship.panel_area": 5.0}).ship is not case.ship
+
+
+def test_none_takes_a_key_away() -> None:
+    case = Case.load(EXAMPLE)
+    sea = case.changed(
+        {"seaway.significant_wave_height": None, "seaway.peak_period": None, "seaway.sea_state": 6}
+    )
+    assert sea.file.seaway.sea_state == 6
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"run.timestep": 0.1}, "time_step"),
+        ({"run.time_step": -1.0}, "time_step"),
+        ({"seaway.seed.first": 1}, "no table"),
+        ({"seaway.wave_length": 100.0}, "wave_length"),
+    ],
+)
+def test_a_case_is_not_changed_to_what_no_case_may_be(changes: dict[str, object], words: str) -> None:
+    with pytest.raises(PanelsimError, match=words):
+        Case.load(EXAMPLE).changed(changes)

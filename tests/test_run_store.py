@@ -1,0 +1,183 @@
+"""Runs of studies on disk: found by what was run, refused where they are of something else."""
+
+import shutil
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+
+import panelsim.studies.run_store as run_store
+from panelsim.case import Case
+from panelsim.errors import PanelsimError
+from panelsim.motion.history import History
+from panelsim.results.rms_study import StudySea
+from panelsim.results.statistics import statistics
+from panelsim.studies.case_history import history_of_text
+from panelsim.studies.rms_of_runs import rms_of_runs
+from panelsim.studies.run_store import RunStore, kept_bytes, run_identity, run_key
+
+EXAMPLE = Path(__file__).parents[1] / "examples" / "halifax_sea_state_7.toml"
+
+
+@pytest.fixture
+def case() -> Case:
+    return Case.load(EXAMPLE)
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> RunStore:
+    return RunStore(tmp_path / "runs")
+
+
+def keep(store: RunStore, case: Case, history: History) -> None:
+    store.save(case, kept_bytes(history, run_identity(case)))
+
+
+def test_a_stored_run_has_the_motions_of_its_history(store: RunStore, case: Case, make_history: Any) -> None:
+    history = make_history()
+    assert case not in store
+    keep(store, case, history)
+    assert case in store
+    run = store.load(case)
+    assert run.displacement.tobytes() == history.displacement.tobytes()
+    assert run.wave_elevation.tobytes() == history.wave_elevation.tobytes()
+    assert run.time.tobytes() == history.time.tobytes()
+    assert {name: run.attrs[name] for name in history.attrs} == history.attrs
+    assert run.early_end is None
+
+
+def test_its_rms_is_that_of_the_statistics(store: RunStore, case: Case, make_history: Any) -> None:
+    # 0.3 s steps: the ramp of 12 s is no whole number of binary steps.
+    history = make_history(step=0.3)
+    keep(store, case, history)
+    motions = statistics(history).motions
+    # 1e-13: statistics take one column at a time, which sums in another order
+    np.testing.assert_allclose(store.load(case).rms, [motions[name].rms for name in motions], rtol=1e-13)
+
+
+def test_a_run_that_ended_early_says_so_and_has_no_rms(
+    store: RunStore, case: Case, make_history: Any
+) -> None:
+    keep(store, case, make_history(outcome="capsized", outcome_detail="roll of 91° at 40 s"))
+    run = store.load(case)
+    assert run.early_end == "capsized: roll of 91° at 40 s"
+    assert np.isnan(run.rms).all()
+
+
+def test_runs_are_told_apart_by_every_key_of_the_case(case: Case) -> None:
+    changes: list[dict[str, Any]] = [
+        {"run.time_step": 0.2},
+        {"seaway.seed": 7},
+        {"run.stepper": "rk4"},
+        {"run.pressure_rule": "panel"},
+        {"supplementary.damping.roll": 3e7},
+        {"ship.panel_area": 5.0},
+    ]
+    keys = {run_key(case)} | {run_key(case.changed(change)) for change in changes}
+    assert len(keys) == len(changes) + 1
+    assert run_key(case.changed({"seaway.seed": case.file.seaway.seed})) == run_key(case)
+
+
+def test_a_run_depends_on_the_files_that_its_case_names(tmp_path: Path, case: Case) -> None:
+    shutil.copytree(EXAMPLE.parents[1] / "hulls" / "box", tmp_path / "mine")
+    mine = Case(case.changed({"ship.hull": "mine"}).file, tmp_path)
+    before = run_key(mine)
+    assert run_key(mine) == before
+    particulars = tmp_path / "mine" / "particulars.toml"
+    particulars.write_text(particulars.read_text() + "\n# another\n")
+    assert run_key(mine) != before
+
+
+def test_a_run_of_another_case_under_this_name_is_refused(
+    store: RunStore, case: Case, make_history: Any
+) -> None:
+    other = case.changed({"seaway.seed": 7})
+    keep(store, other, make_history())
+    store.path(other).rename(store.path(case))
+    with pytest.raises(PanelsimError, match="of another case"):
+        store.load(case)
+
+
+def test_a_run_of_another_version_is_refused(
+    store: RunStore, case: Case, make_history: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    keep(store, case, make_history())
+    store.save_failure(case.changed({"seaway.seed": 7}), "no such sea")
+    monkeypatch.setattr(run_store, "version", lambda name: "9.9.9")
+    with pytest.raises(PanelsimError, match=r"another version(.|\n)*0\.1\.0(.|\n)*9\.9\.9"):
+        store.load(case)
+    with pytest.raises(PanelsimError, match="another version"):
+        store.failure(case.changed({"seaway.seed": 7}))
+
+
+@pytest.mark.parametrize("cut", [0, 100, 5000])
+def test_a_file_cut_short_is_refused(store: RunStore, case: Case, make_history: Any, cut: int) -> None:
+    keep(store, case, make_history())
+    store.path(case).write_bytes(store.path(case).read_bytes()[:cut])
+    with pytest.raises(PanelsimError, match="damaged"):
+        store.load(case)
+
+
+def test_a_file_without_motions_is_refused(store: RunStore, case: Case) -> None:
+    store.folder.mkdir()
+    with h5py.File(store.path(case), "w") as file:
+        file["time"] = [0.0]
+    with pytest.raises(PanelsimError, match="damaged"):
+        store.load(case)
+
+
+def test_a_run_that_is_not_there_is_told(store: RunStore, case: Case) -> None:
+    with pytest.raises(PanelsimError, match="not stored"):
+        store.load(case)
+
+
+def test_a_failure_is_kept_with_its_message(store: RunStore, case: Case) -> None:
+    assert store.failure(case) is None
+    store.save_failure(case, "The sea is too steep.\n  got: 0.2")
+    assert case in store
+    assert store.failure(case) == "The sea is too steep.\n  got: 0.2"
+
+
+def test_rms_of_runs_reads_levels_seas_and_realizations_in_their_places(
+    store: RunStore, case: Case, make_history: Any
+) -> None:
+    still = make_history().displacement
+
+    def case_of(level: int, sea: int, realization: int) -> Case:
+        return case.changed({"seaway.seed": 100 * level + 10 * sea + realization})
+
+    for level, sea, realization in np.ndindex(2, 3, 2):
+        if (level, sea, realization) == (1, 2, 0):
+            store.save_failure(case_of(1, 2, 0), "no luck")
+        else:
+            scale = 1.0 + 100 * level + 10 * sea + realization
+            keep(store, case_of(level, sea, realization), make_history(displacement=scale * still))
+    study = rms_of_runs(
+        store,
+        case_of,
+        title="made up",
+        varied="time step [s]",
+        levels=["0.2 s", "0.1 s"],
+        values=np.array([0.2, 0.1]),
+        reference=1,
+        seas=[StudySea(f"sea {i}", 150.0) for i in range(3)],
+        realizations=2,
+    )
+    one = study.rms[0, 0, 0]
+    # 1e-12: the mean of scaled motions rounds elsewhere
+    np.testing.assert_allclose(study.rms[1, 1, 1], 112.0 * one, rtol=1e-12)
+    np.testing.assert_allclose(study.rms[0, 2, 1], 22.0 * one, rtol=1e-12)
+    assert np.isnan(study.rms[1, 2, 0]).all() and np.isfinite(study.rms).sum() == 11 * 6
+    assert study.failures == ("0.1 s, sea 2, realization 1: no luck",)
+
+
+def test_a_case_from_text_runs_as_the_case_itself(case: Case) -> None:
+    short = case.changed({"ship.panel_area": 20.0, "run.duration": 4.0, "run.ramp": 2.0})
+    texts = [short.changed({"seaway.seed": seed}).file.model_dump_json(exclude_none=True) for seed in (1, 2)]
+    first, second = (history_of_text(text, short.folder, "short") for text in texts)
+    assert first.attrs["seed"] == 1 and second.attrs["seed"] == 2
+    assert not first.same_bits(second)
+    again = history_of_text(texts[0], short.folder, "short")
+    assert first.same_bits(again)
