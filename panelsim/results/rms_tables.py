@@ -38,9 +38,7 @@ def rms_markdown(study: RmsStudy) -> str:
         [study.levels[level], study.seas[sea].label, *_with_band(shown[level, sea], band[level, sea])]
         for level, sea in np.ndindex(shown.shape[:2])
     ]
-    note = (
-        "" if np.isnan(band).all() else f"\n±: {100.0 * CONFIDENCE:g} % confidence band, in the same unit.\n"
-    )
+    note = "" if np.isnan(band).all() else f"\n±: {100.0 * CONFIDENCE:g} % confidence band.\n"
     return markdown_table(["level", "sea", *heads], rows, text_columns=2) + note
 
 
@@ -55,16 +53,9 @@ def difference_markdown(study: RmsStudy) -> str:
     for level in range(len(study.levels)):
         for heading in headings if level != study.reference else ():
             worst = worst_difference(study, level, heading)
+            told = "a run did not finish" if np.isnan(worst.amount) else worst.told
             cells = [_per_cent(value) for value in _largest(study, level, heading)]
-            rows.append(
-                [
-                    study.levels[level],
-                    f"{heading:g}",
-                    *cells,
-                    _told(worst.told, worst.amount),
-                    words(worst.amount),
-                ]
-            )
+            rows.append([study.levels[level], f"{heading:g}", *cells, told, words(worst.amount)])
     heads = ["level", "wave heading [deg]", *(f"{name} [%]" for name in DOF_NAMES), "worst", "this is"]
     return markdown_table(heads, rows, text_columns=1) + f"\nAgainst {study.levels[study.reference]}.\n"
 
@@ -81,7 +72,7 @@ def display_rms(rms: FloatArray) -> FloatArray:
 
 
 def _largest(study: RmsStudy, level: int, heading: float) -> Iterator[float]:
-    """Of each mode the difference of largest size in the seas from a heading; NaN where it is minor in all."""
+    """Of each mode the largest difference in the seas from a heading; NaN where it is minor in all."""
     chosen = [i for i, sea in enumerate(study.seas) if sea.wave_heading_deg == heading]
     for values in study.difference[level, chosen].T:
         known = values[~np.isnan(values)]
@@ -96,7 +87,3 @@ def _with_band(rms: FloatArray, band: FloatArray) -> Iterator[str]:
 
 def _per_cent(value: float) -> str:
     return "–" if np.isnan(value) else f"{100.0 * value:+.2g}"
-
-
-def _told(told: str, amount: float) -> str:
-    return "a run did not finish" if np.isnan(amount) else told
