@@ -63,7 +63,8 @@ def base_case() -> Case:
             "ramp": 60.0,
         },
     }
-    return Case(CaseFile.model_validate(described), Path(), "tm2003-190")
+    # The folder holds no file that a case could name.
+    return Case(CaseFile.model_validate(described), Path(__file__).parent, "tm2003-190")
 
 
 def study_sea(wave_heading_deg: float, height: float, steepness: float) -> StudySea:
