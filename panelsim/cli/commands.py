@@ -20,6 +20,7 @@ from panelsim.cli.arguments import refuse_existing, require_suffix, ship_of
 from panelsim.cli.decay import decay
 from panelsim.cli.hydro import hydro
 from panelsim.cli.options import EXIT_BAD_INPUT, EXIT_ENDED_EARLY, Force, Overrides
+from panelsim.cli.reproduce import reproduce
 from panelsim.cli.respond import respond
 from panelsim.cli.righting import righting
 from panelsim.cli.show import err, out, progress_bars, say, show_case, show_facts, show_result, warn
@@ -325,6 +326,9 @@ app.command()(righting)
 
 
 app.command()(hydro)
+
+
+app.command()(reproduce)
 
 
 @app.command()

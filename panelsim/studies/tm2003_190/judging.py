@@ -100,6 +100,26 @@ def where_it_counts(study: RmsStudy, level: str, threshold: float) -> str:
     return "; ".join(part for part in (bound, seen) if part)
 
 
+def exceptions(study: RmsStudy, level: str, mask: Mask, threshold: float) -> str:
+    """Motions among these that differ by more than the threshold, with their range of heights."""
+    size = np.where(mask, np.nan_to_num(np.abs(study.difference[study.levels.index(level)]), nan=0.0), 0.0)
+    found = []
+    for heading in dict.fromkeys(sea.wave_heading_deg for sea in study.seas):
+        for mode, name in enumerate(DOF_NAMES):
+            here = from_heading(study, heading)[:, mode] & (size[:, mode] > threshold)
+            heights = [
+                sea.significant_wave_height or np.nan
+                for sea, beyond_it in zip(study.seas, here, strict=True)
+                if beyond_it
+            ]
+            if heights:
+                span = (
+                    f"{min(heights):g} m" if len(heights) == 1 else f"{min(heights):g} to {max(heights):g} m"
+                )
+                found.append(f"{name} at {heading:g}° ({span}, up to {size[here, mode].max():.0%})")
+    return f"beyond {threshold:.0%}: {', '.join(found)}" if found else ""
+
+
 def _largest_seen(study: RmsStudy, row: int) -> float:
     """The largest change of RMS of a major mode, over the largest RMS of the mode from that heading."""
     change = np.where(study.major, np.abs(study.pooled[row] - study.pooled[study.reference]), np.nan)

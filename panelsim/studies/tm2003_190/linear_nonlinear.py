@@ -20,7 +20,14 @@ from panelsim.studies.tm2003_190.common import (
     Scope,
     study_seas,
 )
-from panelsim.studies.tm2003_190.judging import Mask, beyond, both, everywhere, of_modes, within
+from panelsim.studies.tm2003_190.judging import (
+    beyond,
+    both,
+    everywhere,
+    exceptions,
+    of_modes,
+    within,
+)
 from panelsim.studies.tm2003_190.rms_plan import Level, RmsPlan
 from panelsim.studies.tm2003_190.section import Section, Statement
 from panelsim.view.rms_pictures import rms_over_height
@@ -43,7 +50,8 @@ class LinearNonlinear:
     def plans(self) -> dict[str, RmsPlan]:
         """A plan for each steepness, by its name."""
         levels = tuple(
-            Level(model, float(value), {"run.model": model}) for value, model in enumerate((LINEAR, NONLINEAR))
+            Level(model, float(value), {"run.model": model})
+            for value, model in enumerate((LINEAR, NONLINEAR))
         )
         return {
             name: RmsPlan(
@@ -107,7 +115,7 @@ def moderate_statement(study: RmsStudy) -> Statement:
         " 3 m (8.3)",
         found.holds,
         found.figure,
-        "" if found.holds else exceptions(study, roll),
+        "" if found.holds else exceptions(study, LINEAR, everywhere(study) & ~roll, SLIGHT),
     )
 
 
@@ -124,5 +132,5 @@ def steep_statement(study: RmsStudy) -> Statement:
         " quartering seas (8.3, 10)",
         found.holds,
         found.figure,
-        "" if found.holds else exceptions(study, roll | yaw),
+        "" if found.holds else exceptions(study, LINEAR, everywhere(study) & ~roll & ~yaw, SLIGHT),
     )

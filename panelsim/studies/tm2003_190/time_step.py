@@ -18,7 +18,15 @@ from panelsim.studies.tm2003_190.common import (
     Scope,
     study_seas,
 )
-from panelsim.studies.tm2003_190.judging import against, beyond, everywhere, from_heading, where_it_counts, within, worst
+from panelsim.studies.tm2003_190.judging import (
+    against,
+    beyond,
+    everywhere,
+    from_heading,
+    where_it_counts,
+    within,
+    worst,
+)
 from panelsim.studies.tm2003_190.rms_plan import Level, RmsPlan
 from panelsim.studies.tm2003_190.section import Section, Statement
 from panelsim.view.rms_pictures import rms_over_height
@@ -64,9 +72,7 @@ class TimeStep:
         studies = {stepper: plan.read(store) for stepper, plan in self.plans.items()}
         pictures = [
             (
-                rms_over_height(
-                    study, heading, folder / f"time_step_{stepper}_{heading:g}.png"
-                ).name,
+                rms_over_height(study, heading, folder / f"time_step_{stepper}_{heading:g}.png").name,
                 f"RMS motions with the scheme {stepper}, wave heading {heading:g}°"
                 f" (figure {10 if heading == STERN_QUARTERING else 11} of the report).",
             )
@@ -80,9 +86,7 @@ class TimeStep:
             "How long may a time step be?",
             f"Nonlinear runs on the medium mesh at 20 knots, nominal steepness {LIMITING_STEEPNESS:g}, steps of"
             f" 0.1, 0.2 and 0.5 s with each scheme; the reference is rk4 at {REFERENCE_STEP:g} s.",
-            "".join(
-                f"### {stepper}\n\n{difference_markdown(study)}\n" for stepper, study in studies.items()
-            ),
+            "".join(f"### {stepper}\n\n{difference_markdown(study)}\n" for stepper, study in studies.items()),
             tuple(one for stepper, study in studies.items() for one in statements(stepper, study)),
             tuple(pictures),
             {f"time_step_{stepper}.csv": rms_csv(study) for stepper, study in studies.items()},
