@@ -132,9 +132,7 @@ def _quiet() -> Iterator[None]:
 
     assert distributed
     loggers = [logging.getLogger(name) for name in (*_LOGGERS, *logging.root.manager.loggerDict)]
-    ours = [
-        logger for logger in loggers if logger.name.startswith(_LOGGERS) and not logger.disabled
-    ]
+    ours = [logger for logger in loggers if logger.name.startswith(_LOGGERS) and not logger.disabled]
     try:
         for logger in ours:
             logger.disabled = True
