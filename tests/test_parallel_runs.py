@@ -1,4 +1,4 @@
-"""Runs of a study: the same bits in one process, in several and in groups; what is lost, fails or is stopped."""
+"""Runs of a study: the same bits in one process, in several, in groups; what is lost, fails or is stopped."""
 
 import os
 import signal
@@ -71,7 +71,7 @@ def test_groups_have_the_bits_and_words_of_single_runs(
 def test_two_processes_of_which_one_is_killed(
     cases: list[Case], alone: list[StoredRun], tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    """The killed one is replaced, its runs are made again, a bad case fails alone, and nobody is told of Dask."""
+    """It is replaced, its runs are made again, a bad case fails alone, and nobody is told of Dask."""
     store = RunStore(tmp_path)
     bad = cases[0].changed({"run.time_step": 5.0})
     killed: list[int] = []

@@ -1,4 +1,4 @@
-"""Runs of a study, in as many processes as there are cores; those that are stored already are not made again."""
+"""Runs of a study, in as many processes as there are cores; those that are stored are not made again."""
 
 from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import CancelledError
@@ -117,7 +117,7 @@ def _groups(cases: Sequence[Case], workers: int, most: int) -> list[list[Case]]:
 
 
 def _make_coefficients(cases: Sequence[Case]) -> None:
-    """Compute coefficients that are nowhere stored, so that not every process does; faults are told by runs."""
+    """Compute coefficients that are not stored, so that not every process does; faults are told by runs."""
     ships = {
         (case.file.ship.model_dump_json(), case.file.hydrodynamics.model_dump_json()): case for case in cases
     }

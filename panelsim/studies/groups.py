@@ -1,4 +1,4 @@
-"""Runs that are stepped together: one ship in seas and at speeds of her own, each with its bits as if alone."""
+"""Runs that are stepped together: a ship in many seas and at many speeds, each with its bits as if alone."""
 
 import contextlib
 import json
