@@ -27,8 +27,13 @@ class Timing:
     @classmethod
     def of_history(cls, history: History) -> "Timing":
         attrs = history.attrs
-        seconds = (float(attrs[name]) for name in ("cpu_seconds", "jit_seconds", "simulated_seconds"))
-        return cls(*seconds, history.components.count, len(history.panels))
+        return cls(
+            cpu_seconds=float(attrs["cpu_seconds"]),
+            jit_seconds=float(attrs["jit_seconds"]),
+            simulated_seconds=float(attrs["simulated_seconds"]),
+            components=history.components.count,
+            panels=len(history.panels),
+        )
 
 
 class TimingStore:
