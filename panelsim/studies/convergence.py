@@ -136,7 +136,7 @@ def time_step_convergence(
         unit="s",
         case=case,
         value_key="run.time_step",
-        values=_falling("time steps", steps or [factor * own for factor in STEP_FACTORS], "s"),
+        values=falling("time steps", steps or [factor * own for factor in STEP_FACTORS], "s"),
         scheme_key="run.stepper",
         schemes=_different("steppers", steppers or [case.file.run.stepper], tuple(LONGEST_STEP)),
         seeds=seeds,
@@ -169,25 +169,25 @@ def mesh_convergence(
         unit="m2",
         case=case,
         value_key="ship.panel_area",
-        values=_falling("panel areas", panel_areas or _areas_about_own(case), "m2"),
+        values=falling("panel areas", panel_areas or _areas_about_own(case), "m2"),
         scheme_key="run.pressure_rule",
         schemes=_different("pressure rules", rules or [run.pressure_rule], RULES),
         seeds=seeds,
     )
-    _require_panels(case)
+    require_panels(case)
     _ = study.cases
     return study
 
 
 def _areas_about_own(case: Case) -> list[float]:
-    _require_panels(case)
+    require_panels(case)
     form = case.ship.form
     assert form is not None
     own = case.file.ship.panel_area or default_panel_area(form)
     return [factor * own for factor in AREA_FACTORS]
 
 
-def _require_panels(case: Case) -> None:
+def require_panels(case: Case) -> None:
     """Raise PanelsimError for a ship whose panels are given."""
     if is_mesh_file(case.file.ship.hull):
         raise PanelsimError(
@@ -204,7 +204,7 @@ def _require_sea(case: Case, seeds: int) -> None:
     require_seeds(case, seeds)
 
 
-def _falling(what: str, values: Sequence[float], unit: str) -> tuple[float, ...]:
+def falling(what: str, values: Sequence[float], unit: str) -> tuple[float, ...]:
     """Values that differ, are positive and not too many, the largest first."""
     told = ", ".join(f"{value:g}" for value in values)
     if not all(np.isfinite(value) and value > 0.0 for value in values):

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -36,11 +37,8 @@ class LinearNonlinear:
 
     @cached_property
     def models(self) -> tuple[Case, Case]:
-        """The case, linear and nonlinear: each with its own inertia where the case leaves that open."""
-        linear = {"run.model": "linear", "run.inertia": None, "run.pressure_rule": "vertex+centre"}
-        if "inertia" not in self.case.file.run.model_dump(exclude_none=True):
-            del linear["run.inertia"]
-        return self.case.changed(linear), self.case.changed({"run.model": "nonlinear"})
+        """The case, linear and nonlinear."""
+        return models_of(self.case)
 
     @property
     def cases(self) -> list[Case]:
@@ -66,9 +64,17 @@ class LinearNonlinear:
         )
 
 
-def require_linear_model(study: LinearNonlinear, progress: Progress | None = None) -> HydroDatabase:
-    """The coefficients of the case. Raises PanelsimError where its roll damping has no linear model."""
-    linear = study.models[0]
+def models_of(case: Case) -> tuple[Case, Case]:
+    """A case, linear and nonlinear; where it leaves the inertia open each has that of its model."""
+    linear: dict[str, Any] = {"run.model": "linear"}
+    if case.file.run.inertia == "large":
+        linear["run.inertia"] = None
+    return case.changed(linear), case.changed({"run.model": "nonlinear"})
+
+
+def require_linear_model(case: Case, progress: Progress | None = None) -> HydroDatabase:
+    """The coefficients of a case. Raises PanelsimError where its roll damping has no linear model."""
+    linear, _ = models_of(case)
     _ = linear.supplementary, linear.points
     database = linear.database(progress)
     linear.roll_damping(database)
