@@ -106,6 +106,8 @@ _HOMES = {
     "hull_pressure": "loads.hull_pressure",
     "HullPressure": "loads.hull_pressure",
     "Supplementary": "loads.supplementary",
+    "SamplingError": "response.run_length",
+    "sampling_error": "response.run_length",
     "natural_periods": "response.natural",
     "NaturalMode": "response.natural",
     "Response": "response.response",
@@ -185,6 +187,8 @@ if TYPE_CHECKING:
     from panelsim.response.natural import natural_periods as natural_periods
     from panelsim.response.response import Response as Response
     from panelsim.response.response import response as response
+    from panelsim.response.run_length import SamplingError as SamplingError
+    from panelsim.response.run_length import sampling_error as sampling_error
     from panelsim.response.transfer_functions import TransferFunctions as TransferFunctions
     from panelsim.results.statistics import statistics as statistics
     from panelsim.seaway.climate.limits import buckley_height as buckley_height

@@ -155,7 +155,7 @@ def test_an_old_recording_is_replaced_only_by_a_whole_one(
         raise MemoryError("no room")
 
     with monkeypatch.context() as patch:
-        patch.setattr(recording, "_send_sea", fail)
+        patch.setattr(recording, "send_sea", fail)
         with pytest.raises(MemoryError):
             record(run, path, frames=5)
     assert [p.read_bytes() for p in tmp_path.iterdir()] == [b"old"]

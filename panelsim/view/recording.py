@@ -17,30 +17,28 @@ rides on a sea of another moment.
 
 import hashlib
 import time as clock
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
-from panelsim.conventions import DOF_NAMES, FloatArray, IntArray
+from panelsim.conventions import DOF_NAMES
 from panelsim.errors import PanelsimError
 from panelsim.files import write_whole
 from panelsim.motion.history import History
 from panelsim.results.statistics import display_unit, statistics
 from panelsim.results.tables import statistics_markdown
-from panelsim.view.blueprint import FILM_TIMELINE, ship_blueprint
+from panelsim.view.blueprint import ship_blueprint
 from panelsim.view.frames import choose_frames, rows_within
-from panelsim.view.surfaces import SEA_OPACITY, SeaGrid, deepest_head, hull_colors, pressure_head
+from panelsim.view.ship_scene import send_hull, send_sea
+from panelsim.view.surfaces import deepest_head
+from panelsim.view.tape import Tape
 
 if TYPE_CHECKING:
     import rerun as rr
 
 APPLICATION_ID = "panelsim"
-# Frames sent in one call: one at a time is twice as slow, a hundred at once slower still.
-BATCH = 25
 # Surge to yaw, and the loads in their order; told apart on a dark and on a light background.
 CURVE_COLORS = (0x9A9A9AFF, 0xB07CD8FF, 0xF28E2BFF, 0xE15759FF, 0x59A14FFF, 0xC9A227FF)
 WAVE_COLOR = 0x3FA7D6FF
@@ -59,40 +57,6 @@ class RecordingSummary:
     seconds: float
 
 
-@dataclass(frozen=True)
-class _Tape:
-    """A stream with the timelines of one run."""
-
-    stream: "rr.RecordingStream"
-    history: History
-    film: tuple[float, float]
-
-    def batches(self, rows: IntArray, size: int) -> Iterator[IntArray]:
-        """Rows in lots of at most `size`, each wholly inside or wholly outside the film."""
-        inside = rows_within(self.history.time[rows], self.film)
-        for part in (rows[~inside], rows[inside]):
-            for first in range(0, len(part), size):
-                yield part[first : first + size]
-
-    def send(self, entity: str, rows: IntArray, columns: "rr.ComponentColumnList") -> None:
-        """Send one value a row, on all timelines that have these rows."""
-        import rerun as rr
-
-        seconds = self.history.time[rows]
-        times = [rr.TimeColumn("sim_time", duration=seconds), rr.TimeColumn("step", sequence=rows)]
-        if rows_within(seconds, self.film).all():
-            times.append(rr.TimeColumn(FILM_TIMELINE, duration=seconds))
-        self.stream.send_columns(entity, times, columns)
-
-    def send_curve(self, entity: str, rows: IntArray, values: FloatArray, label: str, color: int) -> None:
-        """A curve of the values (T,) at these rows; the label carries the unit."""
-        import rerun as rr
-
-        self.stream.log(entity, rr.SeriesLines(names=label, colors=color, widths=2.0), static=True)
-        for batch in self.batches(rows, len(rows)):
-            self.send(entity, batch, rr.Scalars.columns(scalars=values[batch]))
-
-
 def record(history: History, path: str | Path, *, frames: int = 100) -> RecordingSummary:
     """Write a history as a .rrd file with at most `frames` 3-D pictures; the motions are there at every step.
 
@@ -105,13 +69,13 @@ def record(history: History, path: str | Path, *, frames: int = 100) -> Recordin
     start, path = clock.perf_counter(), Path(path)
     rows, film = choose_frames(history, frames)
     stream = rr.RecordingStream(APPLICATION_ID, recording_id=recording_id(history))
-    tape = _Tape(stream, history, film)
+    tape = Tape(stream, history.time, film)
     memory = stream.memory_recording()
     _send_facts(stream, history)
-    _send_motions(tape)
-    _send_loads(tape)
-    _send_hull(tape, rows)
-    _send_sea(tape, rows)
+    _send_motions(tape, history)
+    _send_loads(tape, history)
+    send_hull(tape, history, rows)
+    send_sea(tape, history, rows)
     middle = np.median(history.displacement[rows, :3], axis=0) if len(rows) else np.zeros(3)
     stream.send_blueprint(ship_blueprint(length=float(history.loading["length"]), look_at=middle))
     content = memory.drain_as_bytes()
@@ -174,8 +138,7 @@ def _about(history: History) -> str:
     return "\n\n".join(lines)
 
 
-def _send_motions(tape: _Tape) -> None:
-    history = tape.history
+def _send_motions(tape: Tape, history: History) -> None:
     rows = np.arange(len(history.time))
     for dof, name in enumerate(DOF_NAMES):
         unit, factor = display_unit(name)
@@ -185,63 +148,16 @@ def _send_motions(tape: _Tape) -> None:
     tape.send_curve("waves/elevation", rows, history.wave_elevation, "wave elevation [m]", WAVE_COLOR)
 
 
-def _send_loads(tape: _Tape) -> None:
+def _send_loads(tape: Tape, history: History) -> None:
     """Loads of the filmed window; of a whole run they would be most of the file.
 
     Weight and buoyancy would flatten every other curve, so each is drawn about its mean over the run.
     """
-    rows = np.flatnonzero(rows_within(tape.history.time, tape.film))
-    for order, (load, values) in enumerate(tape.history.loads.items()):
+    rows = np.flatnonzero(rows_within(history.time, tape.film))
+    for order, (load, values) in enumerate(history.loads.items()):
         color = CURVE_COLORS[order % len(CURVE_COLORS)]
         for dof, name in enumerate(DOF_NAMES):
-            mean = values[tape.history.finite, dof].mean()
+            mean = values[history.finite, dof].mean()
             if np.ptp(values[rows, dof]) > 1e-9 * abs(mean):
                 label = f"{load.replace('_', ' ')} [{'MN' if dof < 3 else 'MN m'}]"
                 tape.send_curve(f"loads/{name}/{load}", rows, 1e-6 * (values[:, dof] - mean), label, color)
-
-
-def _send_hull(tape: _Tape, rows: IntArray) -> None:
-    """The shape once, without the colours: what is static hides all that comes later."""
-    import rerun as rr
-
-    history = tape.history
-    corners, triangles, normals = _faceted(history)
-    shape = rr.Mesh3D(vertex_positions=corners, triangle_indices=triangles, vertex_normals=normals)
-    tape.stream.log("world/ship/hull", shape, static=True)
-    for batch in tape.batches(rows, BATCH):
-        attitude = Rotation.from_euler("ZYX", history.displacement[batch, :2:-1]).as_quat()
-        pose = rr.Transform3D.columns(translation=history.displacement[batch, :3], quaternion=attitude)
-        tape.send("world/ship", batch, pose)
-        colors = [hull_colors(history, pressure_head(history, row))[history.panels].ravel() for row in batch]
-        columns = rr.Mesh3D.columns(vertex_colors=np.concatenate(colors))
-        tape.send("world/ship/hull", batch, columns.partition([len(corners)] * len(batch)))
-
-
-def _send_sea(tape: _Tape, rows: IntArray) -> None:
-    import rerun as rr
-
-    sea = SeaGrid.around(tape.history)
-    highest = max(float(np.abs(tape.history.wave_elevation).max()), 1e-3)
-    surface = rr.Mesh3D.from_fields(triangle_indices=sea.triangles, albedo_factor=0xFFFFFF00 | SEA_OPACITY)
-    tape.stream.log("world/sea", surface, static=True)
-    for batch in tape.batches(rows, BATCH):
-        heights = [sea.elevation(row) for row in batch]
-        points = [sea.vertices(row, height) for row, height in zip(batch, heights, strict=True)]
-        columns = rr.Mesh3D.columns(
-            vertex_positions=np.concatenate(points),
-            vertex_colors=np.concatenate([sea.colors(height, highest) for height in heights]),
-        )
-        tape.send("world/sea", batch, columns.partition([len(points[0])] * len(batch)))
-
-
-def _faceted(history: History) -> tuple[FloatArray, IntArray, FloatArray]:
-    """Corners (4 N, 3), triangles (2 N, 3) and normals (4 N, 3) of a hull whose panels share no corner.
-
-    So each panel is shaded as the flat facet that it is, and edges of deck and transom stay sharp.
-    """
-    corners = history.mesh_vertices[history.panels]
-    area = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-    normals = area / np.linalg.norm(area, axis=1, keepdims=True)
-    first = 4 * np.arange(len(corners))[:, None]
-    triangles = np.concatenate([first + np.array([0, 1, 2]), first + np.array([0, 2, 3])])
-    return corners.reshape(-1, 3), triangles, np.repeat(normals, 4, axis=0)

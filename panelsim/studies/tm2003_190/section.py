@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from panelsim.case import Case
 from panelsim.results.rms_study import RmsStudy
@@ -15,7 +15,7 @@ class Statement:
     """A statement of the report and whether it holds here.
 
     `says` is what the report says, with its section; `figures` what was measured beside the threshold;
-    `remark` where and why we differ.
+    `remark` where and why we differ; all of one line, as a cell of a table.
     """
 
     says: str
@@ -26,7 +26,7 @@ class Statement:
 
 @dataclass(frozen=True)
 class Section:
-    """A section of the page, in Markdown; `pictures` are files in the folder with their captions.
+    """A section of the page, in Markdown; `pictures` are names of files in the folder with their captions.
 
     `tables` are CSV texts by file name; `rms` what the recording of the study shows, and `series` cases
     whose motions stand behind it, by what they are called there.
@@ -58,3 +58,17 @@ class Study(Protocol):
 
     def section(self, store: RunStore, folder: Path) -> Section:
         """Read the runs, draw the pictures into the folder, say what they show; runs nothing."""
+
+
+@runtime_checkable
+class MeasuringStudy(Study, Protocol):
+    """A study that reads more than runs: timings, which are taken while nothing else runs, or analyses.
+
+    What it finds it keeps in the folder of the runs.
+    """
+
+    def is_measured(self, store: RunStore) -> bool:
+        """Whether all of it is there."""
+
+    def measure(self, store: RunStore) -> None:
+        """Make and keep what is not there yet; the runs of the study are stored when this is called."""

@@ -1,0 +1,240 @@
+"""How near the RMS of a run comes to that of its sea, and how long or how many runs it takes to come nearer."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import sici
+from scipy.stats import norm
+
+from panelsim.conventions import FloatArray
+from panelsim.errors import PanelsimError
+from panelsim.response.sampling import variance_scatter
+from panelsim.response.transfer_functions import TransferFunctions
+from panelsim.seaway.checks import real_numbers, require_positive
+from panelsim.seaway.dispersion import encounter_frequency
+from panelsim.seaway.random import RandomSeaway
+from panelsim.seaway.seaways import Seaway
+from panelsim.seaway.spectra.point_spectrum import PointSpectrum
+
+CONFIDENCE = 0.95
+LONGEST = 86400.0  # s: no run is longer than a day, in which weather changes
+SHORTEST = 10.0  # s
+# Shares of the energy left out below and above, and the width of a band over its frequency.
+_TAILS = (1e-5, 1e-4)
+_BAND = 0.01
+_LENGTHS_PER_DECADE = 20
+
+
+@dataclass(frozen=True, eq=False)
+class SamplingError:
+    """How far the RMS of runs may lie from that of their sea by chance: K signals, one speed, one course.
+
+    `frequency` [rad/s]: the signed frequencies of encounter (M,) of waves, or the edges (M + 1,) of the bands of
+    a continuous spectrum, which rise, and fall again where the ship overtakes the waves. `variance` (M, K) that
+    each gives each signal, in the squares of their units. Phases are random; of a band, amplitudes as well.
+    `grid_error` (K,) is the RMS of the waves over that of the spectrum which they stand for, less 1, None where
+    there is none: it is not chance, and neither longer runs nor other phases mend it.
+    """
+
+    names: tuple[str, ...]
+    frequency: FloatArray
+    variance: FloatArray
+    grid_error: FloatArray | None = None
+
+    @property
+    def rms(self) -> FloatArray:
+        """RMS (K,) that endless runs tend to, in the units of the signals."""
+        return np.asarray(np.sqrt(self.variance.sum(axis=0)))
+
+    @property
+    def spectral(self) -> bool:
+        """Whether the sea is a continuous spectrum, not a sum of waves."""
+        return len(self.frequency) > len(self.variance)
+
+    def moving(self, duration: float) -> FloatArray:
+        """Variance (M, K) about the mean of a run: a wave that hardly moves past the ship is in the mean.
+
+        The square of the mean of a wave over T is s²(ωT/2) of its variance, s(x) = sin x/x.
+        """
+        ends = self.frequency
+        omega = 0.5 * (ends[1:] + ends[:-1]) if self.spectral else ends
+        return self.variance * (1.0 - np.sinc(0.5 * omega * duration / np.pi) ** 2)[:, None]
+
+    def band(self, duration: float, realizations: int = 1) -> FloatArray:
+        """Half width (K,) of the 95 % band of the RMS of runs of `duration` [s], over the RMS.
+
+        The variances of `realizations` runs of other phases are averaged. 1.96 standard errors of the
+        variance, halved for its root: good for narrow bands, and above 0.5 no more than a sign that the run
+        tells nothing. NaN for what does not move.
+        """
+        length = require_positive("duration", duration, "s")
+        one_side = 0.5 * norm.ppf(0.5 + 0.5 * CONFIDENCE)
+        moving = self.moving(length)
+        total = moving.sum(axis=0)
+        scatter = _spectral_scatter if self.spectral else variance_scatter
+        deviation = np.sqrt(np.maximum(scatter(self.frequency, moving, length), 0.0) / realizations)
+        return one_side * np.divide(deviation, total, out=np.full(len(total), np.nan), where=total > 0.0)
+
+    def run_length(self, band: float, longest: float = LONGEST) -> FloatArray:
+        """Length (K,) [s] from which on a single run has this band (0.05 is 5 %), to 3 %.
+
+        Infinite where no run up to `longest` [s] has: waves that meet the ship at nearly one frequency beat
+        more slowly, and then only runs of other phases help, `realizations`. Raises PanelsimError for a band or
+        a length that is not positive.
+        """
+        wanted = require_positive("band", band, "")
+        last = require_positive("longest run", longest, "s")
+        first = min(SHORTEST, 0.1 * last)
+        lengths = np.geomspace(first, last, int(_LENGTHS_PER_DECADE * np.log10(last / first)))
+        bands = np.array([self.band(float(length)) for length in lengths])
+        return np.array([_from_which_on(lengths, of_one, wanted) for of_one in bands.T])
+
+    def realizations(self, band: float, duration: float) -> FloatArray:
+        """Runs (K,) of `duration` [s], of other phases each, whose variances together have this band.
+
+        NaN for what does not move. Raises PanelsimError as `run_length` does.
+        """
+        wanted = require_positive("band", band, "")
+        return np.maximum(np.ceil((self.band(duration) / wanted) ** 2 - 1e-9), 1.0)
+
+    def floor(self, longest: float = LONGEST) -> FloatArray:
+        """The band (K,) that the longest run [s] still has: what length alone does not go below."""
+        return self.band(longest)
+
+
+def sampling_error(
+    table: TransferFunctions,
+    sea: Seaway | PointSpectrum,
+    *,
+    speed: float | None = None,
+    wave_heading: float | None = None,
+) -> SamplingError:
+    """The sampling error of linear motions, or of the signals of a point, in a sea.
+
+    A seaway is its own components, met on its own course; a random one from one direction is compared with its
+    spectrum. A point spectrum is long-crested from `wave_heading` β [rad], by default that of a table with
+    one. `speed` [m/s] is by default that of a table with one. Roll damping is that which stands for all of
+    its terms in this sea. Raises PanelsimError for seas of another kind, a heading with a seaway, none or
+    several to choose from without one, and where the coefficients do not reach.
+    """
+    own = float(_one_of("speed", speed, table.speeds))
+    if isinstance(sea, PointSpectrum):
+        heading = float(_one_of("wave heading", wave_heading, table.wave_headings))
+        return _of_spectrum(table, sea, own, heading)
+    if not isinstance(sea, Seaway) or not sea.components.count:
+        raise PanelsimError(
+            "The sea is of another kind", got=repr(sea)[:60], allowed="a seaway with waves, or a point spectrum"
+        )
+    if wave_heading is not None:
+        raise PanelsimError("A seaway has its own heading", got=f"wave_heading={wave_heading!r}")
+    waves = sea.components
+    damping = _damping(table, sea, own, None)
+    encounter, variance = _in_waves(
+        table, waves.frequency, waves.wave_heading, own, damping, 0.5 * waves.amplitude**2
+    )
+    grid_error = None
+    if isinstance(sea, RandomSeaway) and sea.directional_spectrum is None:
+        spectral = _of_spectrum(table, sea.point_spectrum, own, float(waves.wave_heading[0]))
+        grid_error = _ratio(np.sqrt(variance.sum(axis=0)), spectral.rms) - 1.0
+    return SamplingError(tuple(table.signals.names), encounter, variance, grid_error)
+
+
+def _of_spectrum(
+    table: TransferFunctions, spectrum: PointSpectrum, speed: float, heading: float
+) -> SamplingError:
+    """A continuous spectrum in narrow bands, each even over the frequency of encounter."""
+    low, high = spectrum.frequency_below(_TAILS[0]), spectrum.frequency_below(1.0 - _TAILS[1])
+    edges = np.geomspace(low, high, 2 + int(np.log(high / low) / _BAND))
+    gravity = table.linear_ship.ship.gravity
+    # Where the frequency of encounter turns round there is an edge, and no other near it.
+    turn = 0.5 * gravity / max(speed * np.cos(heading), 1e-9)
+    if low < turn < high:
+        edges = np.sort(np.append(edges[np.abs(edges / turn - 1.0) > 0.3 * _BAND], turn))
+    middle, width = 0.5 * (edges[1:] + edges[:-1]), np.diff(edges)
+    damping = _damping(table, spectrum, speed, heading)
+    energy = spectrum.density(middle) * width
+    _, variance = _in_waves(table, middle, np.full(len(middle), heading), speed, damping, energy)
+    ends = encounter_frequency(edges, heading, speed, gravity)
+    return SamplingError(tuple(table.signals.names), ends, variance)
+
+
+def _in_waves(
+    table: TransferFunctions,
+    frequency: FloatArray,
+    heading: FloatArray,
+    speed: float,
+    damping: float,
+    energy: FloatArray,
+) -> tuple[FloatArray, FloatArray]:
+    """Frequency of encounter (M,) of waves with energy (M,) [m2], and the variance (M, K) that they give."""
+    motions = table.linear_ship.in_waves(frequency, heading, np.array([speed]), np.array([damping]))
+    encounter = motions.encounter[0]
+    signals = table.signals.of(motions.transfer[0], frequency, heading, encounter)
+    return encounter, np.abs(signals) ** 2 * energy[:, None]
+
+
+def _damping(
+    table: TransferFunctions, sea: Seaway | PointSpectrum, speed: float, heading: float | None
+) -> float:
+    """Linear roll damping [N m s] that stands for all terms in this sea."""
+    headings = None if heading is None else [heading]
+    found = table.in_sea(sea, wave_headings=headings)["equivalent_roll_damping"]
+    return float(found.values[int(np.argmin(np.abs(table.speeds - speed))), 0])
+
+
+def _one_of(name: str, given: float | None, own: FloatArray) -> float:
+    """The one given if the table has it, else its only one."""
+    if given is None:
+        if len(own) == 1:
+            return float(own[0])
+        raise PanelsimError(f"The {name} is not told", got=f"a table with {len(own)}", remedy="give one")
+    value = float(real_numbers(name, given))
+    near = float(own[np.argmin(np.abs(own - value))])
+    if name == "speed" and abs(near - value) > 1e-6:
+        raise PanelsimError("The table does not have this speed", got=f"{value:g} m/s", allowed=own.tolist())
+    return near if name == "speed" else value
+
+
+def _ratio(values: FloatArray, reference: FloatArray) -> FloatArray:
+    return np.divide(values, reference, out=np.full(len(values), np.nan), where=reference > 0.0)
+
+
+def _from_which_on(lengths: FloatArray, bands: FloatArray, wanted: float) -> float:
+    """Length [s] after which no band is wider than the one wanted: inf if none, NaN of what does not move.
+
+    The bands do not fall evenly with the length; between two of them they are powers of it.
+    """
+    if np.isnan(bands[-1]):
+        return np.nan
+    wide = np.flatnonzero(~(bands <= wanted))
+    if not wide.size:
+        return float(lengths[0])
+    last = int(wide[-1])
+    if last == len(lengths) - 1:
+        return np.inf
+    falling = -np.log(np.maximum(bands[last : last + 2], 1e-12))
+    return float(np.exp(np.interp(-np.log(wanted), falling, np.log(lengths[last : last + 2]))))
+
+
+def _spectral_scatter(edges: FloatArray, variance: FloatArray, duration: float) -> FloatArray:
+    """Variance (K,) of the variances that runs of a Gaussian process show, its density even in each band.
+
+    Var v = ∬ S(ω) S(ω') [s²((ω - ω')T/2) + s²((ω + ω')T/2)] dω dω', s(x) = sin x/x: the integral of the
+    autocorrelation squared of Bendat and Piersol, Random Data (2010), section 8.2, over frequencies. The mean
+    of s² over a pair of bands is the second difference of a function whose second derivative it is.
+    """
+    apart, together = (
+        np.diff(np.diff(_second_integral(edges[:, None] + sign * edges, duration), axis=0), axis=1)
+        for sign in (-1.0, 1.0)
+    )
+    density = variance / np.diff(edges)[:, None]
+    return np.asarray(np.einsum("is,ij,js->s", density, together - apart, density))
+
+
+def _second_integral(frequency: FloatArray, duration: float) -> FloatArray:
+    """What has s²(ωT/2) as its second derivative over ω: 4/T² [u Si(2u) - sin²u - ½ Cin(2u)], u = ωT/2."""
+    u = np.abs(0.5 * duration * frequency)
+    sine, cosine = sici(2.0 * u)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        cin = np.where(u > 0.0, np.euler_gamma + np.log(2.0 * u) - cosine, 0.0)
+    return np.asarray(4.0 / duration**2 * (u * sine - np.sin(u) ** 2 - 0.5 * cin))

@@ -1,0 +1,140 @@
+"""TM 2003-190 section 8.2: how fine a mesh has to be, with cut and with whole panels; figures 12 and 13."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from panelsim.case import Case
+from panelsim.results.rms_study import RmsStudy
+from panelsim.results.rms_tables import difference_markdown, rms_csv
+from panelsim.results.verdicts import IDENTICAL, SLIGHT
+from panelsim.studies.run_store import RunStore
+from panelsim.studies.tm2003_190.common import (
+    HEADINGS_DEG,
+    LIMITING_STEEPNESS,
+    STERN_QUARTERING,
+    Scope,
+    study_seas,
+)
+from panelsim.studies.tm2003_190.judging import (
+    Finding,
+    against,
+    beyond,
+    both,
+    everywhere,
+    where_it_counts,
+    within,
+    worst,
+)
+from panelsim.studies.tm2003_190.rms_plan import Level, RmsPlan
+from panelsim.studies.tm2003_190.section import Section, Statement
+from panelsim.view.rms_pictures import rms_over_height
+
+PANEL_AREAS = (5.0, 2.5, 1.0)  # m2: coarse, medium, fine, Table 3
+COARSE, MEDIUM, FINE = (f"{area:g} m²" for area in PANEL_AREAS)
+CUT, WHOLE = "cut panels", "whole panels"
+RULES = {CUT: "vertex+centre", WHOLE: "panel"}
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Three meshes, with panels cut at the water and whole, against the fine mesh."""
+
+    base: Case
+    scope: Scope
+    key: str = "mesh"
+
+    @cached_property
+    def plans(self) -> dict[str, RmsPlan]:
+        """A plan for each way of wetting, by its name."""
+        return {wetting: self._plan(wetting) for wetting in RULES}
+
+    def _plan(self, wetting: str) -> RmsPlan:
+        """Three meshes; the fine one of cut panels, which has the smaller error, is the reference of both."""
+        levels = [
+            Level(f"{area:g} m²", area, {"ship.panel_area": area, "run.pressure_rule": RULES[wetting]})
+            for area in PANEL_AREAS
+        ]
+        if wetting == WHOLE:
+            finest = {"ship.panel_area": PANEL_AREAS[-1], "run.pressure_rule": RULES[CUT]}
+            levels.append(Level(f"{FINE} cut", PANEL_AREAS[-1], finest))
+        return RmsPlan(
+            self.base.changed({"run.duration": self.scope.duration}),
+            f"Mesh, {wetting}",
+            "panel area [m²]",
+            tuple(levels),
+            len(levels) - 1,
+            study_seas(self.scope.heights, LIMITING_STEEPNESS),
+            self.scope.realizations,
+        )
+
+    @property
+    def cases(self) -> Sequence[Case]:
+        return [case for plan in self.plans.values() for case in plan.cases]
+
+    def section(self, store: RunStore, folder: Path) -> Section:
+        studies = {wetting: plan.read(store) for wetting, plan in self.plans.items()}
+        return Section(
+            self.key,
+            "Mesh (8.2)",
+            "How fine does the mesh have to be, and what does it bring to cut the panels at the water?",
+            f"Nonlinear runs at 20 knots, nominal steepness {LIMITING_STEEPNESS:g}, step 0.2 s, panels of"
+            " 5, 2.5 and 1 m². Cut panels: the pressure at corners and centres of what is under water, the"
+            " default here. Whole panels: as in the report, wet or dry by their centres, the pressure there."
+            " The reference is the fine mesh of cut panels; the statements compare meshes of one kind.",
+            "".join(
+                f"### {wetting.capitalize()}\n\n{difference_markdown(study)}\n"
+                for wetting, study in studies.items()
+            ),
+            tuple(one for wetting, study in studies.items() for one in statements(wetting, study)),
+            tuple(
+                (
+                    rms_over_height(
+                        study, heading, folder / f"mesh_{wetting.split()[0]}_{heading:g}.png"
+                    ).name,
+                    f"RMS motions with {wetting}, wave heading {heading:g}°"
+                    f" (figure {12 if heading == STERN_QUARTERING else 13} of the report).",
+                )
+                for wetting, study in studies.items()
+                for heading in HEADINGS_DEG
+            ),
+            {f"mesh_{wetting.split()[0]}.csv": rms_csv(study) for wetting, study in studies.items()},
+            tuple(studies.values()),
+            {
+                f"{wetting} {level.name}": plan.case(row, len(plan.seas) - 1, 0)
+                for wetting, plan in self.plans.items()
+                for row, level in enumerate(plan.levels[: len(PANEL_AREAS)])
+            },
+            tuple(dict.fromkeys(failure for study in studies.values() for failure in study.failures)),
+        )
+
+
+def statements(wetting: str, study: RmsStudy) -> tuple[Statement, Statement]:
+    """What the report says of the medium and of the coarse mesh, each against the fine one of its kind."""
+    own = against(study, FINE)
+    all_of_it = everywhere(own)
+    medium = within(own, MEDIUM, all_of_it, IDENTICAL)
+    coarse = both(beyond(own, COARSE, all_of_it, IDENTICAL), within(own, COARSE, all_of_it, SLIGHT))
+    return (
+        Statement(
+            f"{wetting}: medium and fine mesh give effectively identical results (8.2)",
+            medium.holds,
+            medium.figure,
+            "" if medium.holds else where_it_counts(own, MEDIUM, IDENTICAL),
+        ),
+        Statement(
+            f"{wetting}: the coarse mesh gives slightly different results (8.2)",
+            coarse.holds,
+            _one_figure(own, coarse),
+            "" if coarse.holds else where_it_counts(own, COARSE, SLIGHT),
+        ),
+    )
+
+
+def _one_figure(study: RmsStudy, finding: Finding) -> str:
+    """The difference once, beside both bounds."""
+    found = worst(study, COARSE, everywhere(study))
+    if found is None or found.amount != found.amount:
+        return finding.figure
+    return f"{found.told}, {'' if finding.holds else 'not '}in {100 * IDENTICAL:g} to {100 * SLIGHT:g} %"
