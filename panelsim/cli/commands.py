@@ -17,6 +17,9 @@ from panelsim.case import Case
 from panelsim.case.ship_section import is_mesh_file
 from panelsim.case.template import case_template, hull_entry
 from panelsim.cli.arguments import refuse_existing, require_suffix, ship_of
+from panelsim.cli.compare import compare
+from panelsim.cli.converge import converge
+from panelsim.cli.cost import cost
 from panelsim.cli.decay import decay
 from panelsim.cli.hydro import hydro
 from panelsim.cli.options import EXIT_BAD_INPUT, EXIT_ENDED_EARLY, Force, Overrides
@@ -44,6 +47,9 @@ app = typer.Typer(
     rich_markup_mode=None,  # it takes the "[m]" of a unit for markup
 )
 app.command()(decay)
+app.command()(cost)
+app.add_typer(converge, name="converge")
+app.add_typer(compare, name="compare")
 
 _NUMBERS = {"float_parsing": "a number", "int_parsing": "a whole number"}
 

@@ -10,7 +10,15 @@ from panelsim.studies.run_store import RunStore, kept_bytes, run_identity, run_k
 Progress = Callable[[float, float], None]  # runs done, runs in all
 
 
-def compute_runs(cases: Sequence[Case], store: RunStore, *, progress: Progress | None = None) -> None:
+def compute_runs(
+    cases: Sequence[Case],
+    store: RunStore,
+    *,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    group: int = 1,
+    progress: Progress | None = None,
+) -> None:
     """Make the runs that are not in the store yet, and keep each as soon as it is made.
 
     A case that cannot be run leaves its message in the store, and the others go on.
