@@ -77,7 +77,7 @@ def _polar(found: xr.Dataset, path: Path) -> Path:
         axis.plot(*(place[marked] for place in places), "x", clip_on=False, zorder=5, **_CROSS)
         _dress(axis, speeds)
         axis.set_title(DOF_NAMES[dof], fontsize=11, pad=14)
-    sides = "port is drawn as the mirror image of starboard: ship and sea are symmetric" if mirrored else ""
+    sides = "starboard is drawn as the mirror image of port: ship and sea are symmetric" if mirrored else ""
     how = "angle: where the waves come from, 180° head seas; radius: speed [knots]; dots: points of the sweep"
     figure.suptitle(_title(found, "\n".join(filter(None, [how, sides])), short), fontsize=11)
     return save(figure, path)
@@ -136,6 +136,7 @@ def _dress(axis: PolarAxes, speeds: FloatArray) -> None:
     axis.set_rorigin(speeds.min() - _HOLE * span)
     axis.set_rlabel_position(112.5)
     axis.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
+    axis.tick_params(axis="x", pad=9)
     axis.tick_params(axis="y", labelsize=7, colors=INK)
     for label in axis.get_yticklabels():
         label.set_bbox({"facecolor": "white", "alpha": 0.6, "linewidth": 0.0, "pad": 0.6})
