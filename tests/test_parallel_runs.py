@@ -24,6 +24,8 @@ from panelsim.studies.run_store import RunStore, StoredRun
 EXAMPLE = Path(__file__).parents[1] / "examples" / "halifax_sea_state_7.toml"
 SHORT = {"ship.panel_area": 40.0, "run.duration": 8.0, "run.ramp": 4.0, "run.time_step": 0.4}
 
+STEEP = {"seaway.peak_period": 9.0}  # steep enough to be warned of
+
 
 @pytest.fixture(scope="module")
 def base() -> Case:
@@ -35,7 +37,7 @@ def cases(base: Case) -> list[Case]:
     """Seven that can be stepped together but for the linear one, one of them in calm water."""
     return [
         *(base.changed({"seaway.seed": seed, "run.speed_knots": 4.0 * seed}) for seed in range(4)),
-        base.changed({"seaway.wave_heading_deg": 30, "seaway.frequencies.step": 0.05}),
+        base.changed({"seaway.wave_heading_deg": 30, "seaway.frequencies.step": 0.05, **STEEP}),
         base.changed({"seaway": {"kind": "calm"}}),
         base.changed({"run.model": "linear"}),
     ]
@@ -66,6 +68,8 @@ def test_groups_have_the_bits_and_words_of_single_runs(
     told: list[tuple[float, float]] = []
     compute_runs(cases, store, workers=1, progress=lambda done, total: told.append((done, total)))
     require_same([store.load(case) for case in cases], alone)
+    steeper = ["steeper" in run.attrs["notes"] for run in alone]
+    assert steeper == [False] * 4 + [True] + [False] * 2
     # The ship at rest and the linear one go alone.
     assert told == [(0, 7), (5, 7), (6, 7), (7, 7)]
     assert [run.attrs.get("seed") for run in alone] == [0, 1, 2, 3, 1001, None, 1001]

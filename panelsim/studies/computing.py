@@ -131,7 +131,7 @@ def _make_coefficients(cases: Sequence[Case]) -> None:
     }
     for case in ships.values():
         section = case.file.hydrodynamics
-        with suppress(PanelsimError):
+        with suppress(Exception):
             if (
                 section.file is None
                 and stored_database(case.ship, section.method, section.section_form) is None

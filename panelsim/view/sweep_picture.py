@@ -118,7 +118,7 @@ def _fill(
     if largest < _STILL:
         axis.text(0.5, 0.5, "nothing moves", transform=axis.transAxes, ha="center", color=INK)
         return
-    levels = MaxNLocator(8, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, largest)
+    levels = MaxNLocator(10, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, largest)
     around = np.deg2rad(fine)
     colours = axis.contourf(around, speeds, values.T, levels, cmap="viridis", zorder=0)
     lines = axis.contour(around, speeds, values.T, levels[1:], colors="white", linewidths=0.7, zorder=1)
