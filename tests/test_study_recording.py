@@ -136,7 +136,12 @@ def test_views_say_their_units(tmp_path: Path) -> None:
         for chunk in RrdReader(path).stream(store=RrdReader(path).blueprints()[0])
         if "ViewBlueprint:display_name" in (batch := chunk.to_record_batch()).schema.names
     }
-    assert {"heave, RMS [m]", "roll, RMS [deg]", "yaw, difference [%]", "sway, difference [%]: minor"} <= names
+    assert {
+        "heave, RMS [m]",
+        "roll, RMS [deg]",
+        "yaw, difference [%]",
+        "sway, difference [%]: minor",
+    } <= names
     assert {"pitch [deg]", "wave elevation [m]"} <= names
 
 

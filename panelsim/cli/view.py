@@ -104,8 +104,12 @@ def run_names(files: Sequence[Path]) -> list[str]:
         if places.count(place) > 1:
             raise PanelsimError("A run is given twice", got=file, allowed="different runs")
     parts = [place.parent.parts if place.name == HISTORY else place.parts for place in places]
-    depth, names = 0, [""]
-    while len(set(names)) < len(parts):
-        depth += 1
-        names = ["/".join(part[-depth:]) for part in parts]
-    return names
+    return ["/".join(_telling_end(number, parts)) for number in range(len(parts))]
+
+
+def _telling_end(number: int, parts: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
+    """The shortest end of the path of this number that is the end of no other."""
+    path = parts[number]
+    ends = (path[-depth:] for depth in range(1, len(path)))
+    others = [*parts[:number], *parts[number + 1 :]]
+    return next((end for end in ends if all(other[-len(end) :] != end for other in others)), path)

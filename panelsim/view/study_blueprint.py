@@ -72,7 +72,7 @@ def _lines_view(lines: Lines) -> "rrb.TimeSeriesView":
         origin=f"/{lines.entity}",
         axis_x=rrb.TimeAxis(view_range=rrb.TimeRange(*ends)),
         axis_y=None if limits is None else rrb.ScalarAxis(range=limits),
-        plot_legend="RightTop",
+        plot_legend=rrb.PlotLegend("RightTop"),
     )
 
 

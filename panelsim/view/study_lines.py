@@ -39,11 +39,10 @@ class Lines:
         """Send the lines on the timeline `level`, which counts from 1; a run that failed leaves a gap."""
         import rerun as rr
 
-        style = {"names": self.labels, "colors": self.colors}
         stream.log(
             self.entity,
-            rr.SeriesLines(widths=2.0, **style),
-            rr.SeriesPoints(marker_sizes=4.0, **style),
+            rr.SeriesLines(names=self.labels, colors=self.colors, widths=2.0),
+            rr.SeriesPoints(names=self.labels, colors=self.colors, marker_sizes=4.0),
             static=True,
         )
         levels = rr.TimeColumn("level", sequence=np.arange(1, len(self.values) + 1))
