@@ -42,9 +42,7 @@ def view(
         _compare(histories, save, force)
         return
     if save is not None:
-        raise PanelsimError(
-            "There is nothing to compare", got=str(what[0]), allowed="--save with 2 or more runs"
-        )
+        raise PanelsimError("There is nothing to save", got=what[0], allowed="--save with 2 or more runs")
     _open(recordings or [_recording_of(histories[0])])
 
 
