@@ -68,6 +68,7 @@ class RunStore:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        self._lost: dict[str, str] = {}
 
     def __contains__(self, case: Case) -> bool:
         """Whether the run, or why it failed, is known."""
@@ -89,11 +90,15 @@ class RunStore:
         told = {"identity": run_identity(case), "panelsim_version": version("panelsim"), "message": message}
         write_whole(self._failure_path(case), json.dumps(told, ensure_ascii=False).encode())
 
+    def note_lost(self, case: Case, message: str) -> None:
+        """Tell why a run was lost by no fault of the case: not kept on disk, so that it is tried again."""
+        self._lost[run_key(case)] = message
+
     def failure(self, case: Case) -> str | None:
-        """Why a case could not be run; None where it was."""
+        """Why a case could not be run, or was lost in this process; None where it was run."""
         path = self._failure_path(case)
         if not path.is_file():
-            return None
+            return None if self.path(case).is_file() else self._lost.get(run_key(case))
         told = json.loads(path.read_text(encoding="utf-8"))
         _require_same(path, told, case)
         return str(told["message"])
@@ -124,7 +129,7 @@ def run_identity(case: Case) -> str:
     """What a run depends on, as JSON: the case, and digests of the files that it names."""
     described = {
         "case": case.file.model_dump(mode="json", exclude_none=True),
-        "files": {name: _digest(path) for name, path in _files(case)},
+        "files": file_digests(case),
     }
     return json.dumps(described, sort_keys=True, ensure_ascii=False)
 
@@ -141,12 +146,12 @@ def kept_bytes(history: History, identity: str) -> bytes:
     return bytes(dataset.to_netcdf(engine="h5netcdf", encoding=encoding))
 
 
-def _files(case: Case) -> list[tuple[str, Path]]:
-    """Files and folders that the case names, by their names there."""
+def file_digests(case: Case) -> dict[str, str]:
+    """Digests of the files and folders that the case names and that are there, by their names in the case."""
     file = case.file
     named = [file.ship.hull, file.hydrodynamics.file, file.seaway.file, *(file.seaway.files or ())]
     paths = [(name, Path(beside(case.folder, name))) for name in named if name is not None]
-    return [(name, path) for name, path in paths if path.exists()]
+    return {name: _digest(path) for name, path in paths if path.exists()}
 
 
 def _digest(path: Path) -> str:
