@@ -131,6 +131,7 @@ def test_the_ships_follow_each_other_at_the_same_moments(runs: dict[str, History
         for moment in moments[moments <= history.time[-1]]:
             assert np.abs(times - moment).min() <= 0.5 * history.attrs["time_step"] + 1e-9
         assert len(times) == len(np.unique(times))
+        assert times[-1] == pytest.approx(history.time[-1], abs=1e-9)  # how a run ended is always seen
         for time, where in zip(times, places, strict=True):
             row = int(np.argmin(np.abs(history.time - time)))
             np.testing.assert_allclose(where[0], history.displacement[row, :3], atol=5e-7)  # float32

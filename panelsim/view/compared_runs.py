@@ -143,11 +143,12 @@ def _send_ships(tapes: Mapping[str, Tape], histories: Mapping[str, History], mom
 
 
 def _nearest_rows(history: History, moments: FloatArray) -> IntArray:
-    """Rows of a run nearest to these moments [s], as far as it goes."""
+    """Rows of a run nearest to these moments [s]; its last one for those after its end."""
     finite = np.flatnonzero(history.finite)
-    within = moments[moments <= history.time[finite[-1:]].max(initial=-1.0) + 1e-9]
+    if not len(finite):
+        return finite
     middles = 0.5 * (history.time[finite][1:] + history.time[finite][:-1])
-    return np.unique(finite[np.searchsorted(middles, within)])
+    return np.unique(finite[np.searchsorted(middles, moments)])
 
 
 def _send_texts(
