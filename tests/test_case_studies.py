@@ -341,6 +341,8 @@ def test_cost_leaves_a_page_that_is_the_same_when_made_again(panelsim: Called, t
         (["converge", "time-step", "--steppers", "euler"], "exponential, rk4, ab3"),
         (["converge", "time-step", "--seeds", "0"], "needs a realization"),
         (["converge", "time-step", "--set", "seaway.kind=calm"], "seaway"),
+        (["converge", "time-step", "--workers", "0"], "workers"),
+        (["compare", "linear-nonlinear", "--scheduler", "nowhere"], "tcp://"),
         (["converge", "mesh", "--panel-areas", "-5"], "not positive"),
         (["converge", "mesh", "--rules", "corner"], "vertex+centre"),
         (["converge", "mesh", "--set", "run.model=linear", "--rules", "panel"], "no pressure rule"),
