@@ -17,6 +17,7 @@ from panelsim.studies.convergence import mesh_convergence, recommended, time_ste
 from panelsim.studies.cost import CostRow, cost_rows, growth, measure_costs
 from panelsim.studies.linear_nonlinear import LinearNonlinear, frequency_domain, require_linear_model
 from panelsim.studies.run_store import RunStore
+from panelsim.studies.study_page import refuse_other_folder
 from panelsim.studies.study_sea import study_sea
 from panelsim.studies.timing_store import Timing, TimingStore
 
@@ -288,18 +289,25 @@ def test_converge_leaves_a_page_that_is_the_same_when_made_again(
         "exponential, 0.2 s (reference)",
     }  # type: ignore
     kept = {file.name: file.read_bytes() for file in folder.iterdir() if file.is_file()}
-    times = {file: file.stat().st_mtime_ns for file in (folder / "runs").iterdir()}
-    assert panelsim(*command, "--workers", 1)[0] == 2  # refused
+    assert panelsim(*command, "--workers", 1)[0] == 2  # there is a page already
+    lost, *others = sorted((folder / "runs").iterdir())
+    times = {file: file.stat().st_mtime_ns for file in others}
+    lost.unlink()
     assert panelsim(*command, "--workers", 1, "--force")[0] == 0
     assert {file.name: file.read_bytes() for file in folder.iterdir() if file.is_file()} == kept
-    assert {file: file.stat().st_mtime_ns for file in (folder / "runs").iterdir()} == times
-    # stopped half way: some runs are there and no page
-    for file in folder.iterdir():
-        if file.is_file():
-            file.unlink()
-    sorted((folder / "runs").iterdir())[0].unlink()
-    assert panelsim(*command, "--workers", 1)[0] == 0
-    assert {file.name: file.read_bytes() for file in folder.iterdir() if file.is_file()} == kept
+    assert lost.is_file() and {file: file.stat().st_mtime_ns for file in others} == times
+
+
+def test_a_study_that_was_stopped_goes_on_without_force(tmp_path: Path) -> None:
+    folder = tmp_path / "study"
+    refuse_other_folder(folder, force=False)
+    (folder / "runs").mkdir(parents=True)
+    (folder / "runs" / "one.nc").touch()
+    refuse_other_folder(folder, force=False)
+    (folder / "report.md").touch()
+    refuse_other_folder(folder, force=True)
+    with pytest.raises(PanelsimError, match="not empty"):
+        refuse_other_folder(folder, force=False)
 
 
 def test_converge_mesh_and_compare_leave_their_pages(
@@ -341,6 +349,8 @@ def test_cost_leaves_a_page_that_is_the_same_when_made_again(panelsim: Called, t
         (["converge", "time-step", "--steppers", "euler"], "exponential, rk4, ab3"),
         (["converge", "time-step", "--seeds", "0"], "needs a realization"),
         (["converge", "time-step", "--set", "seaway.kind=calm"], "seaway"),
+        (["converge", "time-step", "--workers", "0"], "workers"),
+        (["compare", "linear-nonlinear", "--scheduler", "nowhere"], "tcp://"),
         (["converge", "mesh", "--panel-areas", "-5"], "not positive"),
         (["converge", "mesh", "--rules", "corner"], "vertex+centre"),
         (["converge", "mesh", "--set", "run.model=linear", "--rules", "panel"], "no pressure rule"),

@@ -3,7 +3,9 @@
 import os
 import signal
 import socket
+import sys
 from collections.abc import Iterator
+from multiprocessing.spawn import get_preparation_data
 from pathlib import Path
 
 import psutil
@@ -14,6 +16,7 @@ import panelsim.studies.computing as computing
 import panelsim.studies.groups as groups
 from panelsim.case import Case
 from panelsim.errors import PanelsimError
+from panelsim.studies.cluster import _main_module_left_alone
 from panelsim.studies.computing import compute_runs
 from panelsim.studies.groups import Failure, Request, groups_of, make_group
 from panelsim.studies.run_store import RunStore, StoredRun
@@ -249,3 +252,12 @@ def test_groups_are_of_a_kind_and_the_longest_comes_first(base: Case) -> None:
     # 3000 s at 0.1 s are 30 000 steps: six of them are as many as are kept in memory at once.
     long = [base.changed({"run.duration": 3e3, "run.time_step": 0.1, "seaway.seed": s}) for s in range(8)]
     assert [len(group) for group in groups_of(long, most=8)] == [6, 2]
+
+
+def test_a_script_without_main_guard_is_not_begun_again() -> None:
+    """Processes are told nothing of the script, and all is as before afterwards."""
+    main = sys.modules["__main__"]
+    before = main.__spec__, getattr(main, "__file__", None)
+    with _main_module_left_alone():
+        assert not {"init_main_from_name", "init_main_from_path"} & get_preparation_data("worker").keys()
+    assert (main.__spec__, getattr(main, "__file__", None)) == before

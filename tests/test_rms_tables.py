@@ -32,6 +32,7 @@ def made_up(factors: FloatArray, values: FloatArray, reference: int) -> RmsStudy
         (0.0, "practically identical"),
         (-0.01, "practically identical"),
         (0.015, "slightly different, of little influence"),
+        (0.02, "slightly different, of little influence"),
         (-0.03, "slightly different, of little influence, noticeable"),
         (0.05, "slightly different, of little influence, noticeable"),
         (-0.07, "noticeable"),
@@ -62,8 +63,10 @@ def test_a_run_that_failed_is_the_worst_of_all() -> None:
     assert np.isnan(worst_difference(study, 1).amount)
     assert worst_difference(study, 1, 150.0).amount == pytest.approx(0.2, rel=1e-12)
     assert "a run did not finish | not known" in difference_markdown(study)
-    study.rms[0, 1] = np.nan  # and that of the reference
-    assert np.isnan(worst_difference(study, 1, 150.0).amount)
+    study = made_up([1.0, 1.2], [0.1, 0.2], reference=0)
+    study.rms[0, 1] = np.nan  # that of the reference
+    assert np.isnan(worst_difference(study, 1).amount)
+    assert worst_difference(study, 1, 30.0).amount == pytest.approx(0.2, rel=1e-12)
 
 
 def test_csv_gives_back_every_run_in_metres_and_degrees_with_units_in_the_header() -> None:
@@ -101,6 +104,15 @@ def test_a_table_of_differences_has_a_row_a_level_and_heading_in_signed_per_cent
     assert body[0][2:8] == ["-3", "–", "-3", "–", "-3", "-3"]
     assert body[3][2:8] == ["+20", "–", "+20", "–", "+20", "+20"]
     assert body[3][9] == "noticeable, significant"
+
+
+def test_of_several_seas_from_a_heading_the_largest_difference_of_either_sign_is_told() -> None:
+    apart = made_up([1.0, 1.0], [0.1, 0.2], reference=0)
+    seas = tuple(StudySea(sea.label, 30.0) for sea in SEAS)
+    study = RmsStudy(apart.title, apart.varied, apart.levels, apart.values, 0, seas, apart.rms)
+    study.rms[1, :, 0] *= np.array([0.9, 1.05])[:, None]
+    row = difference_markdown(study).splitlines()[2]
+    assert row.startswith("| level 1 | 30 | -10 | – | -10 |")
 
 
 @pytest.mark.parametrize("order", [1.0, 2.0, 3.5])

@@ -11,7 +11,9 @@ from panelsim.case import Case
 from panelsim.cli.options import EXIT_ENDED_EARLY, Force, Overrides
 from panelsim.cli.respond import numbers
 from panelsim.cli.show import out, say, warn
-from panelsim.cli.study import Out, Scheduler, Seeds, Workers, make_runs, study_folder, tell_files, words
+from panelsim.cli.study import Out, Seeds, make_runs, study_folder, tell_files, words
+from panelsim.cli.sweep import Scheduler, Workers
+from panelsim.studies.computing import require_processes
 from panelsim.studies.convergence import Convergence, mesh_convergence, time_step_convergence
 
 converge = typer.Typer(
@@ -40,6 +42,7 @@ def time_step(
 
     The files are report.md, rms.csv, pictures and study.rrd. A study that was stopped goes on.
     """
+    require_processes(workers, scheduler)
     case = Case.load(case_file, overrides or ())
     values = () if steps is None else numbers("--steps", steps, "seconds", example="0.1,0.2,0.5")
     study = time_step_convergence(case, list(values), words(steppers), seeds)
@@ -67,6 +70,7 @@ def mesh(
 
     The files are report.md, rms.csv, pictures and study.rrd. A study that was stopped goes on.
     """
+    require_processes(workers, scheduler)
     case = Case.load(case_file, overrides or ())
     values: Sequence[float] = (
         () if panel_areas is None else list(numbers("--panel-areas", panel_areas, "m2", example="5,2.5,1"))

@@ -30,6 +30,8 @@ def write_convergence(study: Convergence, store: RunStore, folder: Path) -> tupl
     """
     found = {scheme: study.study(store, scheme) for scheme in study.schemes}
     pictures = {scheme: _picture_name(scheme) for scheme in study.schemes}
+    for old in folder.glob("difference-*.png"):
+        old.unlink()  # of other schemes, whose page this one takes the place of
     for scheme, rms in found.items():
         rms_over_levels(rms, folder / pictures[scheme])
     write_whole(folder / TABLE, _csv(found).encode())
