@@ -122,6 +122,9 @@ def test_each_line_says_its_sea_and_each_level_its_name(tmp_path: Path) -> None:
         assert f"#{number}: **{level}" in page
         assert page.count("**") == 2
         assert "0.1 s (reference)" in page
+    told = replace(study, levels=("0.5 s", "0.2 s", "the reference, 0.1 s"))
+    page = chunks(record(tmp_path / "told.rrd", told), "levels")["TextDocument:text"][0].as_py()[0]
+    assert page.count("reference") == 1
     # Heights that do not tell the seas apart give way to the whole labels.
     alike = tuple(replace(sea, significant_wave_height=2.0) for sea in study.seas)
     path = record(tmp_path / "alike.rrd", replace(study, seas=alike))

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 QUANTITIES = ("difference", "rms")
 # The ends of the colour map are left out: too dark on a dark background, too pale on a light one.
-DARKEST, PALEST = 0.25, 0.9
+DARKEST, PALEST = 0.2, 0.95
 
 
 @dataclass(frozen=True)
@@ -89,5 +89,5 @@ def _labels(seas: list[StudySea]) -> tuple[str, ...]:
 
 def _colors(count: int) -> ColorArray:
     """From dark to pale in the order of the seas."""
-    shades = (255.0 * colormaps["plasma"](np.linspace(DARKEST, PALEST, count))).astype(np.uint32)
+    shades = (255.0 * colormaps["plasma"](np.linspace(DARKEST, PALEST, count + 2)[1:-1])).astype(np.uint32)
     return np.asarray(shades @ np.array([1 << 24, 1 << 16, 1 << 8, 1], dtype=np.uint32))
