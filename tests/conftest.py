@@ -1,6 +1,10 @@
 """A made-up run of a box barge, for tests of everything that reads a history, and real runs of a frigate."""
 
+import os
+import socket
+import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
@@ -8,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import rerun_cli
 from matplotlib.figure import Figure
 
 from panelsim.cli import main
@@ -161,3 +166,56 @@ def panelsim(
         return int(ended.value.code or 0), out, err
 
     return called
+
+
+@pytest.fixture
+def seen(tmp_path: Path) -> Callable[..., tuple[bytes, Any]]:
+    """Look at a recording in a viewer without a window: a PNG picture, and the state of the viewer.
+
+    With a timeline and a time [s] on it, that moment is looked at.
+    """
+    from rerun.experimental import ViewerClient
+
+    def look(recording: Path, timeline: str | None = None, at: float = 0.0) -> tuple[bytes, Any]:
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            port = probe.getsockname()[1]
+        home = {name: str(tmp_path) for name in ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_RUNTIME_DIR")}
+        binary = Path(rerun_cli.__file__).parent / "rerun"
+        command = [binary, "--headless", "--bind", "127.0.0.1", "--port", str(port), "--hide-welcome-screen"]
+        viewer = subprocess.Popen(command, env=os.environ | home | {"CI": "1"}, stderr=subprocess.DEVNULL)
+        try:
+            client = _connected(ViewerClient, f"rerun+http://127.0.0.1:{port}/proxy", viewer)
+            client.open(str(recording))
+            return _settled(client, timeline, at), client.get_state()
+        finally:
+            viewer.terminate()
+            viewer.wait(10)
+
+    return look
+
+
+def _connected(client_class: Any, url: str, viewer: subprocess.Popen) -> Any:
+    for _ in range(100):
+        if viewer.poll() is not None:
+            pytest.skip(f"the viewer ended with {viewer.returncode}: no Vulkan driver?")
+        try:
+            client = client_class.connect(url)
+            client.get_state()
+            return client
+        except Exception:  # the server is not up yet; its client says so in several ways
+            time.sleep(0.2)
+    pytest.fail("the viewer does not answer")
+
+
+def _settled(client: Any, timeline: str | None, at: float) -> bytes:
+    """The picture of the window once three in a row are equal: chunks are loaded lazily."""
+    if timeline is not None:
+        client.set_time(timeline, duration=at, play_state="paused")
+    pictures: list[bytes] = []
+    for _ in range(60):
+        pictures.append(client.take_screenshot())
+        if len(pictures) > 3 and pictures[-1] == pictures[-2] == pictures[-3]:
+            break
+        time.sleep(0.25)
+    return pictures[-1]

@@ -643,7 +643,6 @@ def test_view_opens_recordings_and_refuses_others(
     recording = (finished[0] / "run.rrd").read_bytes()
     first.write_bytes(recording)
     refused(call("view", first, second), "no such recording")
-    refused(call("view", tmp_path), "no such recording")
     second.write_bytes(recording[: len(recording) // 2])
     refused(call("view", first, second), "cut short", "b.rrd")
     for content in (b"", b"garbage", b"no recording, but longer than a footer"):

@@ -1,11 +1,9 @@
 """A recording holds the history's motions at every step, and true pictures at some of them."""
 
-import os
-import socket
 import subprocess
-import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -273,50 +271,10 @@ def test_colours_tell_wet_dry_and_bared_bottom_apart(run: History) -> None:
 
 @pytest.mark.viewer
 @pytest.mark.slow
-def test_the_viewer_shows_it_without_complaint(recorded: Path, tmp_path: Path) -> None:
-    from rerun.experimental import ViewerClient
-
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    home = {name: str(tmp_path) for name in ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_RUNTIME_DIR")}
-    command = [RERUN, "--headless", "--bind", "127.0.0.1", "--port", str(port), "--hide-welcome-screen"]
-    viewer = subprocess.Popen(command, env=os.environ | home | {"CI": "1"}, stderr=subprocess.DEVNULL)
-    try:
-        client = _connected(ViewerClient, f"rerun+http://127.0.0.1:{port}/proxy", viewer)
-        client.open(str(recorded))
-        picture = _settled(client)
-        state = client.get_state()
-        assert state.recordings[0].current_timeline == "film"
-        assert [report for view in state.views for report in view.reports] == []
-        assert len({view.name for view in state.views}) == 12
-        # A sea, a hull and curves: thousands of colours where an empty window has a few dozen.
-        assert len(picture) > 50_000
-    finally:
-        viewer.terminate()
-        viewer.wait(10)
-
-
-def _connected(client_class, url: str, viewer: subprocess.Popen):
-    for _ in range(100):
-        if viewer.poll() is not None:
-            pytest.skip(f"the viewer ended with {viewer.returncode}: no Vulkan driver?")
-        try:
-            client = client_class.connect(url)
-            client.get_state()
-            return client
-        except Exception:  # the server is not up yet; its client says so in several ways
-            time.sleep(0.2)
-    pytest.fail("the viewer does not answer")
-
-
-def _settled(client) -> bytes:
-    """The picture of the window once three in a row are equal: chunks are loaded lazily."""
-    client.set_time("film", duration=30.0, play_state="paused")
-    pictures: list[bytes] = []
-    for _ in range(60):
-        pictures.append(client.take_screenshot())
-        if len(pictures) > 3 and pictures[-1] == pictures[-2] == pictures[-3]:
-            break
-        time.sleep(0.25)
-    return pictures[-1]
+def test_the_viewer_shows_it_without_complaint(recorded: Path, seen: Callable[..., Any]) -> None:
+    picture, state = seen(recorded, "film", 30.0)
+    assert state.recordings[0].current_timeline == "film"
+    assert [report for view in state.views for report in view.reports] == []
+    assert len({view.name for view in state.views}) == 12
+    # A sea, a hull and curves: thousands of colours where an empty window has a few dozen.
+    assert len(picture) > 50_000

@@ -29,6 +29,7 @@ from panelsim.cli.righting import righting
 from panelsim.cli.show import err, out, progress_bars, say, show_case, show_facts, show_result, warn
 from panelsim.cli.show_sea import show_sea
 from panelsim.cli.sweep import sweep
+from panelsim.cli.view import view
 from panelsim.errors import PanelsimError
 from panelsim.files import replacing
 from panelsim.hull.checks import check_mesh, require_sound
@@ -341,17 +342,7 @@ app.command()(hydro)
 app.command()(reproduce)
 
 
-@app.command()
-def view(recordings: Annotated[list[Path], typer.Argument(help="Recordings (.rrd).")]) -> None:
-    """Open recordings in the rerun viewer."""
-    for path in recordings:
-        if not path.is_file() or path.suffix != ".rrd":
-            raise PanelsimError("There is no such recording", got=path, allowed="files ending in .rrd")
-    from panelsim.view.viewer import open_viewer, require_whole  # brings rerun
-
-    for path in recordings:
-        require_whole(path)
-    raise typer.Exit(open_viewer(recordings))
+app.command()(view)
 
 
 @app.command()

@@ -9,8 +9,10 @@ import typer
 from panelsim.case import Case
 from panelsim.cli.options import EXIT_ENDED_EARLY, Force, Overrides
 from panelsim.cli.show import out, progress_bars, say, warn
-from panelsim.cli.study import Out, Scheduler, Workers, make_runs, study_folder, tell_files
+from panelsim.cli.study import Out, make_runs, study_folder, tell_files
+from panelsim.cli.sweep import Scheduler, Workers
 from panelsim.seaway.random import RandomSeaway
+from panelsim.studies.computing import require_processes
 from panelsim.studies.linear_nonlinear import SEEDS, LinearNonlinear, require_linear_model
 
 compare = typer.Typer(help="Compare models of a case.", rich_markup_mode=None)
@@ -38,6 +40,7 @@ def linear_nonlinear(
 
     The files are report.md, rms.csv, models.png and study.rrd. A study that was stopped goes on.
     """
+    require_processes(workers, scheduler)
     case = Case.load(case_file, overrides or ())
     if seeds is None:
         seeds = SEEDS if isinstance(case.seaway, RandomSeaway) else 1
@@ -56,7 +59,7 @@ def linear_nonlinear(
     files = write_linear_nonlinear(study, store, database, folder)
     rms = study.study(store)
     say(models_in_words(rms))
-    warn(rms.failures)
+    warn(" ".join(failure.split()) for failure in rms.failures)
     tell_files(folder, files)
     if np.isnan(rms.rms).any():
         raise typer.Exit(EXIT_ENDED_EARLY)

@@ -11,7 +11,9 @@ from panelsim.case import Case
 from panelsim.cli.options import EXIT_ENDED_EARLY, Force, Overrides
 from panelsim.cli.respond import numbers
 from panelsim.cli.show import out, say, warn
-from panelsim.cli.study import Out, Scheduler, Seeds, Workers, make_runs, study_folder, tell_files, words
+from panelsim.cli.study import Out, Seeds, make_runs, study_folder, tell_files, words
+from panelsim.cli.sweep import Scheduler, Workers
+from panelsim.studies.computing import require_processes
 from panelsim.studies.convergence import Convergence, mesh_convergence, time_step_convergence
 
 converge = typer.Typer(
@@ -40,6 +42,7 @@ def time_step(
 
     The files are report.md, rms.csv, pictures and study.rrd. A study that was stopped goes on.
     """
+    require_processes(workers, scheduler)
     case = Case.load(case_file, overrides or ())
     values = () if steps is None else numbers("--steps", steps, "seconds", example="0.1,0.2,0.5")
     study = time_step_convergence(case, list(values), words(steppers), seeds)
@@ -67,6 +70,7 @@ def mesh(
 
     The files are report.md, rms.csv, pictures and study.rrd. A study that was stopped goes on.
     """
+    require_processes(workers, scheduler)
     case = Case.load(case_file, overrides or ())
     values: Sequence[float] = (
         () if panel_areas is None else list(numbers("--panel-areas", panel_areas, "m2", example="5,2.5,1"))
@@ -84,14 +88,18 @@ def _converge(
     warn(study.case.warnings())
     out.print(f"{len(study.cases)} runs; reference: {study.reference_label}")
     store = make_runs(study.cases, folder, workers, scheduler)
-    from panelsim.studies.convergence_page import convergence_in_words, write_convergence  # brings matplotlib
+    from panelsim.studies.convergence_page import (  # brings matplotlib
+        convergence_in_words,
+        failed_runs,
+        write_convergence,
+    )
 
     files = write_convergence(study, store, folder)
     found = {scheme: study.study(store, scheme) for scheme in study.schemes}
     say(convergence_in_words(study, found).replace("**", ""))
     for scheme, rms in found.items():
         say(f"{scheme}: {study.order(rms, scheme).told}")
-        warn(rms.failures)
+    warn(failed_runs(study, found))
     tell_files(folder, files)
     if any(np.isnan(rms.rms[rms.reference]).any() for rms in found.values()):
         raise typer.Exit(EXIT_ENDED_EARLY)

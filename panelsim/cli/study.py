@@ -9,15 +9,11 @@ import typer
 from panelsim.case import Case
 from panelsim.cli.show import out, progress_bars
 from panelsim.studies.computing import compute_runs
-from panelsim.studies.output_folder import make_output_folder
+from panelsim.studies.output_folder import make_output_folder, remove_if_empty
 from panelsim.studies.run_store import RunStore
 from panelsim.studies.study_page import RUNS, refuse_other_folder
 
 Seeds = Annotated[int, typer.Option(help="Realizations of the sea: this seed and those after it.")]
-Workers = Annotated[int | None, typer.Option(help="Processes; as many as there are cores if not given.")]
-Scheduler = Annotated[
-    str | None, typer.Option(metavar="ADDRESS", help="Address of a Dask scheduler that makes the runs.")
-]
 Out = Annotated[Path | None, typer.Option("--out", help="Output folder; runs/CASE-STUDY if not given.")]
 
 
@@ -32,8 +28,12 @@ def make_runs(cases: Sequence[Case], folder: Path, workers: int | None, schedule
     """Make the runs that are missing under the folder, with a bar on a terminal."""
     make_output_folder(folder)
     store = RunStore(folder / RUNS)
-    with progress_bars() as track:
-        compute_runs(cases, store, workers=workers, scheduler=scheduler, progress=track("runs"))
+    try:
+        with progress_bars() as track:
+            compute_runs(cases, store, workers=workers, scheduler=scheduler, progress=track("runs"))
+    except BaseException:
+        remove_if_empty(folder)
+        raise
     return store
 
 

@@ -40,6 +40,7 @@ def write_cost(study: CaseCost, store: TimingStore, folder: Path, *, rounds: int
         cost_markdown(every),
         growth_in_words(rows),
     ]
+    (folder / PICTURE).unlink(missing_ok=True)  # that of another page
     if lines:
         cost_picture(lines, folder / PICTURE)
         parts.append(f"![CPU over simulated time]({PICTURE})")

@@ -76,7 +76,7 @@ def sea_view(name: str, camera: FloatArray, look_at: FloatArray) -> "rrb.Spatial
 
 
 def scrolling_curves(
-    name: str, origin: str, contents: list[str] | str = "$origin/**"
+    name: str, origin: str, contents: list[str] | str = "$origin/**", *, legend: bool = True
 ) -> "rrb.TimeSeriesView":
     """Curves that scroll past the cursor."""
     import rerun.blueprint as rrb
@@ -90,5 +90,5 @@ def scrolling_curves(
         origin=origin,
         contents=contents,
         axis_x=rrb.TimeAxis(view_range=window),
-        plot_legend=rrb.PlotLegend("LeftTop"),
+        plot_legend=rrb.PlotLegend("LeftTop", visible=legend),
     )

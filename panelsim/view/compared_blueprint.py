@@ -11,12 +11,12 @@ from panelsim.view.study_histories import SIGNALS
 if TYPE_CHECKING:
     import rerun.blueprint as rrb
 
-# Where the camera stands, in widths of all seas together: ahead of the ships and above them.
-CAMERA = (0.7, 0.0, 0.3)
+# Where the camera stands, in lengths of the row: to port of the ships, so that the first is on the left.
+CAMERA = (0.08, 0.6, 0.2)
 
 
-def compared_blueprint(*, width: float | None, differences: bool) -> "rrb.Blueprint":
-    """The layout; `width` [m] from end to end of the seas, None where no ships are drawn.
+def compared_blueprint(*, length: float | None, differences: bool) -> "rrb.Blueprint":
+    """The layout; `length` [m] of the row of seas, None where no ships are drawn.
 
     The viewer opens playing the film over and over.
     """
@@ -27,8 +27,8 @@ def compared_blueprint(*, width: float | None, differences: bool) -> "rrb.Bluepr
         rrb.TextDocumentView(origin="/about", name="about these runs"),
     )
     picture: rrb.Container = texts
-    if width is not None:
-        ships = sea_view("ships at sea", width * np.array(CAMERA), np.zeros(3))
+    if length is not None:
+        ships = sea_view("ships at sea", length * np.array(CAMERA), np.zeros(3))
         picture = rrb.Vertical(ships, texts, row_shares=[3, 2])
     pages = [_curves("Motions", "motions")]
     if differences:
@@ -46,8 +46,8 @@ def compared_blueprint(*, width: float | None, differences: bool) -> "rrb.Bluepr
 def _curves(name: str, origin: str) -> "rrb.Grid":
     import rerun.blueprint as rrb
 
-    views = [
-        scrolling_curves(f"{signal.replace('_', ' ')} [{display_unit(signal)[0]}]", f"/{origin}/{signal}")
-        for signal in SIGNALS
-    ]
+    views = []
+    for signal in SIGNALS:
+        title = f"{signal.replace('_', ' ')} [{display_unit(signal)[0]}]"
+        views.append(scrolling_curves(title, f"/{origin}/{signal}", legend=signal == SIGNALS[0]))
     return rrb.Grid(*views, grid_columns=2, name=name)

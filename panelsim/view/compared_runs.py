@@ -7,8 +7,8 @@
 | `world/RUN/ship`, `world/RUN/ship/hull`, `world/RUN/sea` | as in the recording of a run | 3-D frames |
 | `statistics`, `about` | Markdown | static |
 
-Timelines: `sim_time` [s], and `film` of the window that the 3-D frames of the first run film. The ships stand
-side by side from starboard to port in the order of the runs.
+Timelines: `sim_time` [s], and `film` of the window that the 3-D frames of the first run film. The ships
+follow each other in the order of the runs.
 """
 
 import hashlib
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 APPLICATION_ID = "panelsim-comparison"
 # 3-D frames of a run; each brings its sea, some 50 kB.
-FRAMES = 60
+FRAMES = 100
 # More ships side by side would be too small to see.
 MOST_SHIPS = 4
 # Ship lengths from the ship to the edge of its drawn sea, and from ship to ship.
@@ -65,8 +65,8 @@ def compare_recordings(histories: Mapping[str, History], path: str | Path) -> Pa
     if drawn:
         _send_ships(tapes, histories, first.time[rows])
     _send_texts(stream, histories, compared=compared, drawn=drawn)
-    width = _spacing(histories) * len(histories)
-    stream.send_blueprint(compared_blueprint(width=width if drawn else None, differences=bool(compared)))
+    row = _spacing(histories) * len(histories)
+    stream.send_blueprint(compared_blueprint(length=row if drawn else None, differences=bool(compared)))
     content = memory.drain_as_bytes()
     stream.disconnect()
     write_whole(path, content)
@@ -124,16 +124,16 @@ def _spacing(histories: Mapping[str, History]) -> float:
 
 
 def _send_ships(tapes: Mapping[str, Tape], histories: Mapping[str, History], moments: FloatArray) -> None:
-    """The ships with their seas, spread about the middle, and their names above them."""
+    """The ships with their seas one behind the other, and their names above them."""
     import rerun as rr
 
     spacing = _spacing(histories)
     for order, (name, history) in enumerate(histories.items()):
         world, tape = f"world/{rr.escape_entity_path_part(name)}", tapes[name]
-        aside = (order - 0.5 * (len(histories) - 1)) * spacing
-        tape.stream.log(world, rr.Transform3D(translation=[0.0, aside, 0.0]), static=True)
+        ahead = (0.5 * (len(histories) - 1) - order) * spacing
+        tape.stream.log(world, rr.Transform3D(translation=[ahead, 0.0, 0.0]), static=True)
         above = [0.0, 0.0, 0.3 * float(history.loading["length"])]
-        label = rr.Points3D([above], labels=[name], colors=RUN_COLORS[order], radii=0.0)
+        label = rr.Points3D([above], labels=[name], colors=0xFFFFFFFF, radii=0.0)
         tape.stream.log(f"{world}/name", label, static=True)
         rows = _nearest_rows(history, moments)
         send_hull(tape, history, rows, world)
@@ -143,11 +143,12 @@ def _send_ships(tapes: Mapping[str, Tape], histories: Mapping[str, History], mom
 
 
 def _nearest_rows(history: History, moments: FloatArray) -> IntArray:
-    """Rows of a run nearest to these moments [s], as far as it goes."""
+    """Rows of a run nearest to these moments [s]; its last one for those after its end."""
     finite = np.flatnonzero(history.finite)
-    within = moments[moments <= history.time[finite[-1:]].max(initial=-1.0) + 1e-9]
+    if not len(finite):
+        return finite
     middles = 0.5 * (history.time[finite][1:] + history.time[finite][:-1])
-    return np.unique(finite[np.searchsorted(middles, within)])
+    return np.unique(finite[np.searchsorted(middles, moments)])
 
 
 def _send_texts(

@@ -1,6 +1,7 @@
 """How the recording of studies opens: lines over the levels; tables and motions in the next tabs."""
 
 from collections.abc import Sequence
+from math import ceil
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +20,8 @@ TAB_NAMES = {"difference": "differences", "rms": "RMS"}
 LEAST_PER_CENT = 0.1
 # RMS that differ by less than this share of the largest are drawn from zero.
 LEAST_SPREAD = 0.2
+# Room for the legend, over that for the levels.
+LEGEND_SHARE = 0.4
 
 
 def study_blueprint(studies: Sequence[RmsStudy], window: tuple[float, float] | None) -> "rrb.Blueprint":
@@ -65,14 +68,15 @@ def _lines_view(lines: Lines) -> "rrb.TimeSeriesView":
     """
     import rerun.blueprint as rrb
 
-    ends = (rrb.TimeRangeBoundary.absolute(seq=end) for end in (0, len(lines.values) + 1))
+    count = len(lines.values)
+    ends = (rrb.TimeRangeBoundary.absolute(seq=end) for end in (0, count + ceil(LEGEND_SHARE * count)))
     limits = _limits(lines)
     return rrb.TimeSeriesView(
         name=lines.name,
         origin=f"/{lines.entity}",
         axis_x=rrb.TimeAxis(view_range=rrb.TimeRange(*ends)),
         axis_y=None if limits is None else rrb.ScalarAxis(range=limits),
-        plot_legend="RightTop",
+        plot_legend=rrb.PlotLegend("RightTop"),
     )
 
 

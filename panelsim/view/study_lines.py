@@ -10,20 +10,21 @@ from matplotlib import colormaps
 from panelsim.conventions import DOF_NAMES, FloatArray
 from panelsim.results.rms_study import RmsStudy, StudySea
 from panelsim.results.statistics import display_unit
+from panelsim.view.surfaces import ColorArray
 
 if TYPE_CHECKING:
     import rerun as rr
 
 QUANTITIES = ("difference", "rms")
 # The ends of the colour map are left out: too dark on a dark background, too pale on a light one.
-DARKEST, PALEST = 0.25, 0.9
+DARKEST, PALEST = 0.2, 0.95
 
 
 @dataclass(frozen=True)
 class Lines:
     """One plot: `values` (L, S) of one quantity and motion, a line for each sea from one heading.
 
-    `name` has the unit; `labels` and `colors` (S,), 0xRRGGBBAA, are those of the lines.
+    `name` has the unit; `labels` and `colors` (S,) are those of the lines.
     """
 
     entity: str
@@ -32,17 +33,16 @@ class Lines:
     wave_heading_deg: float
     values: FloatArray
     labels: tuple[str, ...]
-    colors: tuple[int, ...]
+    colors: ColorArray
 
     def send(self, stream: "rr.RecordingStream") -> None:
         """Send the lines on the timeline `level`, which counts from 1; a run that failed leaves a gap."""
         import rerun as rr
 
-        style = {"names": self.labels, "colors": self.colors}
         stream.log(
             self.entity,
-            rr.SeriesLines(widths=2.0, **style),
-            rr.SeriesPoints(marker_sizes=4.0, **style),
+            rr.SeriesLines(names=self.labels, colors=self.colors, widths=2.0),
+            rr.SeriesPoints(names=self.labels, colors=self.colors, marker_sizes=4.0),
             static=True,
         )
         levels = rr.TimeColumn("level", sequence=np.arange(1, len(self.values) + 1))
@@ -87,7 +87,7 @@ def _labels(seas: list[StudySea]) -> tuple[str, ...]:
     return tuple(f"H_s {height:g} m" for height in heights)
 
 
-def _colors(count: int) -> tuple[int, ...]:
+def _colors(count: int) -> ColorArray:
     """From dark to pale in the order of the seas."""
-    shades = colormaps["plasma"](np.linspace(DARKEST, PALEST, count))
-    return tuple(int.from_bytes((255.0 * shade).astype(np.uint8).tobytes()) for shade in shades)
+    shades = (255.0 * colormaps["plasma"](np.linspace(DARKEST, PALEST, count + 2)[1:-1])).astype(np.uint32)
+    return np.asarray(shades @ np.array([1 << 24, 1 << 16, 1 << 8, 1], dtype=np.uint32))

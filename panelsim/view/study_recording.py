@@ -114,7 +114,8 @@ def _send_levels(stream: "rr.RecordingStream", studies: Sequence[RmsStudy]) -> N
 def _level_list(levels: Sequence[str], reference: int, present: int) -> str:
     lines = []
     for number, level in enumerate(levels, 1):
-        told = f"{level} (reference)" if number - 1 == reference else level
+        unsaid = number - 1 == reference and "reference" not in level
+        told = f"{level} (reference)" if unsaid else level
         lines.append(f"- \\#{number}: " + (f"**{told}** ◀" if number == present else told))
     return "\n".join(lines)
 
