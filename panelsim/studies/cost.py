@@ -8,7 +8,7 @@ from scipy.stats import linregress
 
 from panelsim.case import Case
 from panelsim.errors import PanelsimError
-from panelsim.studies.case_history import history_of_text
+from panelsim.studies.case_history import case_history, case_of_text
 from panelsim.studies.timing_store import Timing, TimingStore
 
 Progress = Callable[[float, float], None]  # runs timed, runs in all
@@ -78,7 +78,8 @@ def measure_costs(
 
 def _time(case: Case, store: TimingStore) -> None:
     try:
-        history = history_of_text(case.file.model_dump_json(exclude_none=True), case.folder, case.name)
+        text = case.file.model_dump_json(exclude_none=True)
+        history = case_history(*case_of_text(text, case.folder, case.name))
     except PanelsimError as error:
         store.save_failure(case, str(error))
         return

@@ -45,9 +45,7 @@ def excess_load(store: RunStore, case: Case, *, measured: float) -> ExcessLoad:
     The linear part is that of the first harmonic of the motion with the wave, both a thousandth as large.
     """
     run, wave = store.load(case), case.seaway.components
-    omega = float(
-        encounter_frequency(wave.frequency, wave.wave_heading, case.speed, case.ship.gravity)[0]
-    )
+    omega = float(encounter_frequency(wave.frequency, wave.wave_heading, case.speed, case.ship.gravity)[0])
     found = harmonics(run.time, run.displacement, omega, after=run.time[-1] - measured)
     x = case.ship.vertices[:, 0]
     room = 1e-6 * np.ptp(x)
@@ -58,7 +56,10 @@ def excess_load(store: RunStore, case: Case, *, measured: float) -> ExcessLoad:
     powers = turn[:, None] ** np.arange(1, len(found.complex_amplitude) + 1)
     whole = found.mean + (powers @ found.complex_amplitude).real
     loads = [
-        2.0 / INSTANTS * np.einsum("t,tsk->sk", turn.conj(), _loads(case, stations, time, motion, scale)) / scale
+        2.0
+        / INSTANTS
+        * np.einsum("t,tsk->sk", turn.conj(), _loads(case, stations, time, motion, scale))
+        / scale
         for motion, scale in ((whole, 1.0), (SMALL * first, SMALL))
     ]
     return ExcessLoad(stations, *loads)

@@ -146,9 +146,7 @@ class RegularWaves:
             rows.append(["sinusoidal against frequency domain", _steep(steepness), *_largest(against)])
         sinusoidal = self._common(measured[SINUSOIDAL].transfer)
         for h, steepness in enumerate(self.runs[STOKES].steepness):
-            against = relative_difference(
-                measured[STOKES].transfer[:, :, h], sinusoidal[:, :, h], linear
-            )
+            against = relative_difference(measured[STOKES].transfer[:, :, h], sinusoidal[:, :, h], linear)
             rows.append(["Stokes against sinusoidal", _steep(steepness), *_largest(against)])
         for name, found in measured.items():
             second = found.second[:, :, self.runs[name].steepness.index(SHOWN)]
@@ -239,7 +237,8 @@ def _not_identical(runs: RegularRuns, difference: FloatArray) -> str:
     if size.max() <= IDENTICAL:
         return f"≤ {100 * IDENTICAL:g} % as well."
     told = ", ".join(
-        f"{100 * value:.2g} % at H/λ {_steep(steep)}" for value, steep in zip(size, runs.steepness, strict=True)
+        f"{100 * value:.2g} % at H/λ {_steep(steep)}"
+        for value, steep in zip(size, runs.steepness, strict=True)
     )
     return f"Not ≤ {100 * IDENTICAL:g} %: {told}."
 
@@ -260,9 +259,7 @@ def _steep(steepness: float) -> str:
 def _largest(values: FloatArray) -> list[str]:
     """Of heave and of pitch the value of the largest size, in per cent."""
     found = (worst(values[..., mode]) for mode in range(2))
-    return [
-        "–" if at is None else f"{100 * values[(*at, mode)]:+.2g}" for mode, at in enumerate(found)
-    ]
+    return ["–" if at is None else f"{100 * values[(*at, mode)]:+.2g}" for mode, at in enumerate(found)]
 
 
 def _csv(runs: dict[str, RegularRuns], measured: dict[str, Measured], linear: ComplexArray) -> str:

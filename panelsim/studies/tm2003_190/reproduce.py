@@ -13,6 +13,7 @@ from panelsim.files import replacing, write_whole
 from panelsim.studies.computing import compute_runs
 from panelsim.studies.run_store import RunStore, run_key
 from panelsim.studies.tm2003_190.common import FULL, QUICK, Scope, base_case
+from panelsim.studies.tm2003_190.cost import Cost
 from panelsim.studies.tm2003_190.linear_nonlinear import LinearNonlinear
 from panelsim.studies.tm2003_190.mesh import Mesh
 from panelsim.studies.tm2003_190.page import Making, page
@@ -154,7 +155,12 @@ class Reproduction:
 def reproduction(*, quick: bool, runs: Path) -> Reproduction:
     """All studies of the report, or a reduced set of them, over a folder of runs."""
     scope, base = QUICK if quick else FULL, base_case()
-    studies: list[Study] = [TimeStep(base, scope), Mesh(base, scope), LinearNonlinear(base, scope)]
+    studies: list[Study] = [
+        TimeStep(base, scope),
+        Mesh(base, scope),
+        LinearNonlinear(base, scope),
+        Cost(base, *((120.0, 3) if quick else (600.0, 5))),
+    ]
     return Reproduction(studies, scope, "quick" if quick else "full", runs)
 
 
