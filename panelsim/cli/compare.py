@@ -56,7 +56,7 @@ def linear_nonlinear(
     files = write_linear_nonlinear(study, store, database, folder)
     rms = study.study(store)
     say(models_in_words(rms))
-    warn(rms.failures)
+    warn(" ".join(failure.split()) for failure in rms.failures)
     tell_files(folder, files)
     if np.isnan(rms.rms).any():
         raise typer.Exit(EXIT_ENDED_EARLY)

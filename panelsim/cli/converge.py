@@ -84,14 +84,18 @@ def _converge(
     warn(study.case.warnings())
     out.print(f"{len(study.cases)} runs; reference: {study.reference_label}")
     store = make_runs(study.cases, folder, workers, scheduler)
-    from panelsim.studies.convergence_page import convergence_in_words, write_convergence  # brings matplotlib
+    from panelsim.studies.convergence_page import (  # brings matplotlib
+        convergence_in_words,
+        failed_runs,
+        write_convergence,
+    )
 
     files = write_convergence(study, store, folder)
     found = {scheme: study.study(store, scheme) for scheme in study.schemes}
     say(convergence_in_words(study, found).replace("**", ""))
     for scheme, rms in found.items():
         say(f"{scheme}: {study.order(rms, scheme).told}")
-        warn(rms.failures)
+    warn(failed_runs(study, found))
     tell_files(folder, files)
     if any(np.isnan(rms.rms[rms.reference]).any() for rms in found.values()):
         raise typer.Exit(EXIT_ENDED_EARLY)

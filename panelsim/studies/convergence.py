@@ -65,7 +65,7 @@ class Convergence:
         for scheme, value in [(self.schemes[0], self.reference), *levels]:
             changes: dict[str, Any] = {self.value_key: value}
             # What the case leaves open stays open: it is one run, whether a scheme was named or not.
-            if self.case.file.run.model_dump()[self.scheme_key.removeprefix("run.")] != scheme:
+            if getattr(self.case.file.run, self.scheme_key.removeprefix("run.")) != scheme:
                 changes[self.scheme_key] = scheme
             changed = self.case.changed(changes)
             for index in range(self.seeds):
@@ -89,7 +89,7 @@ class Convergence:
         return rms_of_runs(
             store,
             lambda level, _, index: self.case_of(scheme, level, index),
-            title=f"{self.title}, {scheme}",
+            title=f"{self.title}, {_words_of(self.scheme_key)} {scheme}",
             varied=self.varied,
             levels=[*labels, self.reference_label],
             values=np.array([*self.values, self.reference]),
@@ -177,6 +177,11 @@ def mesh_convergence(
     require_panels(case)
     _ = study.cases
     return study
+
+
+def _words_of(key: str) -> str:
+    """The last part of a key of the case, as words: run.pressure_rule, pressure rule."""
+    return key.rpartition(".")[2].replace("_", " ")
 
 
 def _areas_about_own(case: Case) -> list[float]:

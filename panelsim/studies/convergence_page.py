@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import numpy as np
+
 from panelsim.files import write_whole
 from panelsim.results.rms_study import MINOR, RmsStudy
 from panelsim.results.rms_tables import difference_markdown, rms_csv, rms_markdown
@@ -35,7 +37,7 @@ def write_convergence(study: Convergence, store: RunStore, folder: Path) -> tupl
     for scheme, rms in found.items():
         parts += [f"### {scheme}", difference_markdown(rms), study.order(rms, scheme).told]
         parts += [f"![{rms.title}: differences from the reference]({pictures[scheme]})", rms_markdown(rms)]
-    parts += ["## Runs", failures_markdown(line for rms in found.values() for line in rms.failures)]
+    parts += ["## Runs", failures_markdown(failed_runs(study, found))]
     record_study(
         folder / RECORDING,
         list(found.values()),
@@ -53,13 +55,25 @@ def convergence_in_words(study: Convergence, found: dict[str, RmsStudy]) -> str:
     for scheme, rms in found.items():
         coarsest = recommended(rms)
         advice = "none of them is" if coarsest is None else f"{coarsest:.4g} {study.unit} and finer are"
-        each = "; ".join(
-            f"{rms.levels[level]} {words(worst.amount)}"
-            for level in range(len(study.values))
-            if (worst := worst_difference(rms, level))
-        )
+        each = "; ".join(f"{rms.levels[level]} {_called(rms, level)}" for level in range(len(study.values)))
         lines.append(f"- **{scheme}**: {advice} within {100.0 * IDENTICAL:g} % of the reference. {each}.")
     return "\n".join(lines)
+
+
+def failed_runs(study: Convergence, found: dict[str, RmsStudy]) -> list[str]:
+    """A line for each run that did not go to its end, with its scheme."""
+    lines = [
+        line if line.startswith(study.reference_label) else f"{scheme}, {line}"
+        for scheme, rms in found.items()
+        for line in rms.failures
+    ]
+    return list(dict.fromkeys(" ".join(line.split()) for line in lines))
+
+
+def _called(rms: RmsStudy, level: int) -> str:
+    """What the worst difference of a level is called."""
+    amount = worst_difference(rms, level).amount
+    return "cannot be compared" if np.isnan(amount) else f"({100.0 * amount:+.2g} %) {words(amount)}"
 
 
 def _question(study: Convergence) -> str:

@@ -37,7 +37,7 @@ def setup_markdown(case: Case, more: Mapping[str, str]) -> str:
 
 def failures_markdown(failures: Iterable[str]) -> str:
     """The runs that did not go to their end, or that all did."""
-    told = list(dict.fromkeys(failures))
+    told = list(failures)
     if not told:
         return "Every run went to its end."
     lines = (f"- {' '.join(failure.split())}" for failure in told)
