@@ -128,14 +128,15 @@ def harmonics_of(store: RunStore, case: Case) -> Harmonics:
 def relative_difference(
     found: ComplexArray | FloatArray, reference: ComplexArray | FloatArray, linear: ComplexArray
 ) -> FloatArray:
-    """Amplitude over that of a reference, less 1, (F, R, …, 2); NaN where the linear one is minor.
+    """Amplitude (F, R, …, 2) over that of a reference, less 1; NaN where the linear one (F, R, 2) is minor.
 
-    Minor is what has less than 5 % of its peak over λ/L: beside a cancellation a difference says nothing.
+    The reference is one for each, or (F, R, 2) for all. Minor is what has less than 5 % of its peak over λ/L: beside a cancellation a difference says nothing.
     """
     size = np.abs(linear)
     minor = size < MINOR * np.nanmax(size, axis=1, keepdims=True)
     spread = (slice(None), slice(None), *(None,) * (np.ndim(found) - 3))
-    return np.where(minor[spread], np.nan, np.abs(found) / np.abs(reference) - 1.0)
+    against = np.abs(reference if np.ndim(reference) == np.ndim(found) else reference[spread])
+    return np.where(minor[spread], np.nan, np.abs(found) / against - 1.0)
 
 
 def worst(values: FloatArray) -> tuple[int, ...] | None:

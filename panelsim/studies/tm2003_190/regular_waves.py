@@ -18,6 +18,7 @@ from panelsim.studies.tm2003_190.excess_load import ExcessLoad, excess_load
 from panelsim.studies.tm2003_190.regular_runs import (
     MEASURED,
     MODE_NAMES,
+    MODES,
     RAMP,
     TIME_STEP,
     TRANSIENT,
@@ -203,7 +204,7 @@ def cause(
     excess: ExcessLoad, runs: RegularRuns, found: Measured, linear: ComplexArray, at: tuple[int, ...]
 ) -> str:
     """What makes the largest difference: where on the hull the load is not linear, and how it grows."""
-    mode = (Dof.HEAVE, Dof.PITCH)[at[-1]]
+    mode = MODES[at[-1]]
     share = excess.share(mode)
     place = int(np.argmax(share))
     middle = 0.5 * float(excess.stations[place] + excess.stations[place + 1])
