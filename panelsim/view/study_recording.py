@@ -130,7 +130,7 @@ def _send_texts(stream: "rr.RecordingStream", studies: Sequence[RmsStudy], about
         "tables/differences": _titled(studies, [difference_markdown(study) for study in studies]),
         "tables/rms": _titled(studies, [rms_markdown(study) for study in studies]),
         "how_to_see_motions": "**Are the plots empty? Choose the timeline `sim_time` from the menu at the"
-        f" lower left.** Runs are here step by step for {WINDOW:g} s about the steepest deck of the first one,"
+        f" lower left.** Runs are here step by step for {WINDOW:g} s about the steepest deck of the first,"
         " and as envelopes elsewhere.",
     }
     for entity, text in texts.items():
