@@ -15,9 +15,9 @@ _INTRODUCTION = (
     " report's main particulars, and each of the report's sentences is judged."
 )
 _THRESHOLDS = (
-    f"The words mean a difference of the RMS of a motion: *practically* or *effectively identical* ≤ {IDENTICAL:.0%},"
-    f" *slightly different* {IDENTICAL:.0%} to {SLIGHT:.0%}, *little influence* ≤ {SLIGHT:.0%}, *noticeable*"
-    f" > {NOTICEABLE:.0%}, *significant* > {SIGNIFICANT:.0%}. Motions under {MINOR:.0%} of the largest rotation or"
+    f"The words mean a difference of the RMS of a motion: *practically* or *effectively identical* ≤ {100 * IDENTICAL:g} %,"
+    f" *slightly different* {100 * IDENTICAL:g} % to {100 * SLIGHT:g} %, *little influence* ≤ {100 * SLIGHT:g} %, *noticeable*"
+    f" > {100 * NOTICEABLE:g} %, *significant* > {100 * SIGNIFICANT:g} %. Motions under {100 * MINOR:g} % of the largest rotation or"
     " translation of the same run are left out. One motion in one sea is enough to break a sentence."
 )
 
@@ -97,7 +97,7 @@ def _section(section: Section) -> str:
 
 def _told(statement: Statement) -> str:
     remark = f" {statement.remark[0].upper()}{statement.remark[1:]}." if statement.remark else ""
-    return f"- {statement.says}: **{verdict(statement)}**. {statement.figures}.{remark}\n"
+    return f"- {statement.says}: **{verdict(statement)}**: {statement.figures}.{remark}\n"
 
 
 def anchor(title: str) -> str:

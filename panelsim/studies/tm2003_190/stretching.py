@@ -119,9 +119,7 @@ class Stretching:
             ),
         )
 
-    def _statement(
-        self, store: RunStore, measured: dict[str, Measured], linear: ComplexArray
-    ) -> Statement:
+    def _statement(self, store: RunStore, measured: dict[str, Measured], linear: ComplexArray) -> Statement:
         """The verdict, and where the load is not linear, with and without stretching."""
         found = statement(measured[WHEELER], measured[NONE], linear)
         at = worst(relative_difference(measured[WHEELER].transfer, linear, linear))
@@ -137,7 +135,9 @@ class Stretching:
                 f" x = {excess.stations[most : most + 2].mean():.0f} m"
             )
         cause = f"At the worst ({self.runs[WHEELER].told(at[:-1])}) the pressure is, {'; '.join(shares)}: it is the"
-        return replace(found, remark=f"{found.remark} {cause} shape of the hull there, whatever the stretching.")
+        return replace(
+            found, remark=f"{found.remark} {cause} shape of the hull there, whatever the stretching."
+        )
 
     def _picture(
         self, folder: Path, f: int, measured: dict[str, Measured], linear: ComplexArray
@@ -158,7 +158,9 @@ class Stretching:
 def statement(wheeler: Measured, none: Measured, linear: ComplexArray) -> Statement:
     """Wheeler's stretching made the earlier difference vanish: ≤ 5 % with it, and more than that without."""
     size = {
-        name: np.nan_to_num(np.abs(relative_difference(found.transfer, linear, linear)), nan=0.0).max(axis=(0, 1))
+        name: np.nan_to_num(np.abs(relative_difference(found.transfer, linear, linear)), nan=0.0).max(
+            axis=(0, 1)
+        )
         for name, found in ((WHEELER, wheeler), (NONE, none))
     }
     failed = bool(np.isnan(wheeler.transfer).any() or np.isnan(none.transfer).any())
@@ -193,7 +195,9 @@ def _table(runs: dict[str, RegularRuns], measured: dict[str, Measured], linear: 
                 told = [name, f"{froude:g}", f"1/{1 / steepness:.0f}"]
                 rows.append([*told, *shown, f"{mean:+.2g}"])
     heads = ("", "Fn", "H/λ", "heave [%]", "pitch [%]", "mean heave [% of a]")
-    note = "\nAmplitudes against the frequency domain, root mean square over λ/L; mean heave, mean over λ/L.\n"
+    note = (
+        "\nAmplitudes against the frequency domain, root mean square over λ/L; mean heave, mean over λ/L.\n"
+    )
     return markdown_table(heads, rows, text_columns=1) + note
 
 
