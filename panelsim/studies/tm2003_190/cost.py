@@ -23,8 +23,8 @@ TABLE_4 = {
 }
 LESS = 250.0  # times less CPU than the report is what nonlinear runs have to take
 SEED = 1001
-# cos² over ±90°, in steps of 20°. Of 19 frequencies and 9 directions the rule of the report, a millionth of the
-# energy, leaves 162 here, two of which have 3.2 millionths.
+# cos² over ±90°, in steps of 20°. Of 19 frequencies and 9 directions the rule of the report, a millionth of
+# the energy, leaves 162 here, two of which have 3.2 millionths.
 SPREADING = {
     "seaway.spreading": {"kind": "cosine-squared", "spreading_angle_deg": 90.0},
     "seaway.direction_step_deg": 20.0,

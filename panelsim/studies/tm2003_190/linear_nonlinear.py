@@ -56,8 +56,8 @@ ABOUT_FREQUENCIES = (
     " those of the waves differs from the linear one."
 )
 ABOUT_PARTS = (
-    "The nonlinear pressure load of a run, less its linear part, is taken apart into what waves do to a ship at"
-    " rest, what her motions do in calm water, and products of both; the linear ship answers each. Shares of"
+    "The nonlinear pressure load of a run, less its linear part, is taken apart into what waves do to a ship"
+    " at rest, what her motions do in calm water, and products of both; the linear ship answers each. Shares of"
     " these answers in the variance of the difference between the models (covariances, which may be below 0"
     " where loads act against each other), and the RMS of what all of them miss."
 )
@@ -183,8 +183,8 @@ def moderate_statement(study: RmsStudy, why: str) -> Statement:
         beyond(study, NONLINEAR, roll, SLIGHT, "roll in bow quartering seas: "),
     )
     return Statement(
-        "In moderate steepness nonlinearities have little influence, but for roll in bow quartering seas above"
-        " 3 m (8.3)",
+        "In moderate steepness nonlinearities have little influence, but for roll in bow quartering seas"
+        " above 3 m (8.3)",
         found.holds,
         found.figure,
         "" if found.holds else _because(exceptions(study, NONLINEAR, everywhere(study) & ~roll, SLIGHT), why),

@@ -120,8 +120,8 @@ def cause_in_words(frequencies: Frequencies, parts: Mapping[str, LoadParts]) -> 
         return ""
     share, change = frequencies.elsewhere[:, SLOW].mean(), np.median(np.abs(frequencies.change[:, SLOW]))
     told = (
-        f"of surge, sway, roll and yaw in bow quartering seas {100 * share:.0f} % of the variance on average is at"
-        f" differences and sums of the waves' frequencies, while at those frequencies themselves the models"
+        f"of surge, sway, roll and yaw in bow quartering seas {100 * share:.0f} % of the variance on average is"
+        f" at differences and sums of the waves' frequencies, while at those frequencies themselves the models"
         f" differ by {100 * change:.0f} % (median)"
     )
     if not parts:
