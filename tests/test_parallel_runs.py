@@ -3,7 +3,9 @@
 import os
 import signal
 import socket
+import sys
 from collections.abc import Iterator
+from multiprocessing.spawn import get_preparation_data
 from pathlib import Path
 
 import psutil
@@ -14,6 +16,7 @@ import panelsim.studies.computing as computing
 import panelsim.studies.groups as groups
 from panelsim.case import Case
 from panelsim.errors import PanelsimError
+from panelsim.studies.cluster import _main_module_left_alone
 from panelsim.studies.computing import compute_runs
 from panelsim.studies.groups import Failure, Request, groups_of, make_group
 from panelsim.studies.run_store import RunStore, StoredRun
@@ -64,7 +67,7 @@ def test_groups_have_the_bits_and_words_of_single_runs(
     compute_runs(cases, store, workers=1, progress=lambda done, total: told.append((done, total)))
     require_same([store.load(case) for case in cases], alone)
     # The ship at rest and the linear one go alone.
-    assert told == [(5, 7), (6, 7), (7, 7)]
+    assert told == [(0, 7), (5, 7), (6, 7), (7, 7)]
     assert [run.attrs.get("seed") for run in alone] == [0, 1, 2, 3, 1001, None, 1001]
 
 
@@ -77,7 +80,7 @@ def test_two_processes_of_which_one_is_killed(
     killed: list[int] = []
 
     def kill_one(done: float, total: float) -> None:
-        if not killed:
+        if done and not killed:
             child = next(p for p in psutil.Process().children() if "spawn_main" in " ".join(p.cmdline()))
             killed.append(child.pid)
             os.kill(child.pid, signal.SIGKILL)
@@ -249,3 +252,12 @@ def test_groups_are_of_a_kind_and_the_longest_comes_first(base: Case) -> None:
     # 3000 s at 0.1 s are 30 000 steps: six of them are as many as are kept in memory at once.
     long = [base.changed({"run.duration": 3e3, "run.time_step": 0.1, "seaway.seed": s}) for s in range(8)]
     assert [len(group) for group in groups_of(long, most=8)] == [6, 2]
+
+
+def test_a_script_without_main_guard_is_not_begun_again() -> None:
+    """Processes are told nothing of the script, and all is as before afterwards."""
+    main = sys.modules["__main__"]
+    before = main.__spec__, getattr(main, "__file__", None)
+    with _main_module_left_alone():
+        assert not {"init_main_from_name", "init_main_from_path"} & get_preparation_data("worker").keys()
+    assert (main.__spec__, getattr(main, "__file__", None)) == before

@@ -28,6 +28,7 @@ from panelsim.cli.respond import respond
 from panelsim.cli.righting import righting
 from panelsim.cli.show import err, out, progress_bars, say, show_case, show_facts, show_result, warn
 from panelsim.cli.show_sea import show_sea
+from panelsim.cli.sweep import sweep
 from panelsim.errors import PanelsimError
 from panelsim.files import replacing
 from panelsim.hull.checks import check_mesh, require_sound
@@ -288,6 +289,9 @@ def sea(
 
 
 app.command("response")(respond)
+
+
+app.command()(sweep)
 
 
 @app.command()

@@ -51,11 +51,14 @@ def compute_runs(
     Raises PanelsimError for an address that is none, where no fitting cluster answers, and for workers that
     are no whole number above 0.
     """
-    _require_choice(workers, scheduler, group)
+    require_processes(workers, scheduler)
+    _require_count("group", group)
     missing = list({run_key(case): case for case in cases if case not in store}.values())
     if not missing:
         return
     done = 0
+    if progress is not None:
+        progress(done, len(missing))
     with closing(_answers(missing, workers, scheduler, group)) as found:
         for made, answers in found:
             for case, answer in zip(made, answers, strict=True):
@@ -65,12 +68,10 @@ def compute_runs(
                 progress(done, len(missing))
 
 
-def _require_choice(workers: int | None, scheduler: str | None, group: int) -> None:
-    for name, count in (("workers", workers), ("group", group)):
-        if count is not None and (not isinstance(count, int) or isinstance(count, bool) or count < 1):
-            raise PanelsimError(
-                f"The number of {name} is not possible", got=repr(count)[:60], allowed="1, 2, 3, …"
-            )
+def require_processes(workers: int | None, scheduler: str | None) -> None:
+    """Raise PanelsimError for a number of processes, or an address of a cluster, that cannot be."""
+    if workers is not None:
+        _require_count("workers", workers)
     if scheduler is None:
         return
     require_address(scheduler)
@@ -79,6 +80,13 @@ def _require_choice(workers: int | None, scheduler: str | None, group: int) -> N
             "A cluster that runs already has its own workers",
             got=f"workers {workers}, scheduler {scheduler}",
             remedy="leave out the number of workers",
+        )
+
+
+def _require_count(name: str, count: int) -> None:
+    if not isinstance(count, int) or isinstance(count, bool) or count < 1:
+        raise PanelsimError(
+            f"The number of {name} is not possible", got=repr(count)[:60], allowed="1, 2, 3, …"
         )
 
 

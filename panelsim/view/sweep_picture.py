@@ -16,6 +16,7 @@ from panelsim.view.plots import COLORS, INK, plain, save
 HEADING, SPEED = "seaway.wave_heading_deg", "run.speed_knots"
 _STILL = 1e-6  # m or rad: below it is rounding
 _FINE = 1.0  # degrees: contours are drawn on so fine a circle, between headings along straight lines
+_OPEN = 1.5  # a gap so many times the usual one between headings is a part that was not swept
 _HOLE = 0.3  # of the span of speeds: ships at rest are a circle, not a point
 _CROSS: dict[str, Any] = {"color": "#d62728", "markersize": 8, "markeredgewidth": 2.0}
 
@@ -61,7 +62,9 @@ def _lines(found: xr.Dataset, key: str, path: Path) -> Path:
 
 def _polar(found: xr.Dataset, path: Path) -> Path:
     """RMS by where the waves come from (angle, bow up) and speed (radius): colours, labelled contours."""
-    figure = Figure(figsize=(13.5, 9.5), layout="constrained")
+    figure = Figure(figsize=(13, 11))
+    # By hand: contours on a circle lead the layout engines astray.
+    figure.subplots_adjust(left=0.06, right=0.94, bottom=0.03, top=0.85, hspace=0.3, wspace=0.35)
     angle, taken, mirrored = _around(found)
     speeds = found[SPEED].values.astype(float)
     found = found.transpose(HEADING, SPEED, ...)
@@ -76,8 +79,8 @@ def _polar(found: xr.Dataset, path: Path) -> Path:
         marked = short[taken]
         axis.plot(*(place[marked] for place in places), "x", clip_on=False, zorder=5, **_CROSS)
         _dress(axis, speeds)
-        axis.set_title(DOF_NAMES[dof], fontsize=11, pad=14)
-    sides = "port is drawn as the mirror image of starboard: ship and sea are symmetric" if mirrored else ""
+        axis.set_title(DOF_NAMES[dof], fontsize=11, pad=10)
+    sides = "starboard is drawn as the mirror image of port: ship and sea are symmetric" if mirrored else ""
     how = "angle: where the waves come from, 180° head seas; radius: speed [knots]; dots: points of the sweep"
     figure.suptitle(_title(found, "\n".join(filter(None, [how, sides])), short), fontsize=11)
     return save(figure, path)
@@ -86,7 +89,8 @@ def _polar(found: xr.Dataset, path: Path) -> Path:
 def _around(found: xr.Dataset) -> tuple[FloatArray, np.ndarray, bool]:
     """Angles (A,) [deg] clockwise from the bow, rising; which heading each is; whether half are mirrored.
 
-    A circle that is all there is closed: its first angle comes again, a turn on.
+    A circle that is all there is closed: its first angle comes again, a turn on. Else they begin after the
+    gap, so that nothing is drawn across it.
     """
     headings = np.mod(found[HEADING].values.astype(float), 360.0)
     # β = 180° at the bow, β = 90° from port, which is 270° clockwise.
@@ -96,9 +100,12 @@ def _around(found: xr.Dataset) -> tuple[FloatArray, np.ndarray, bool]:
         angle, taken = np.append(angle, np.mod(-angle, 360.0)), np.append(taken, taken)
     angle, first = np.unique(np.round(angle, 6), return_index=True)
     taken = taken[first]
-    if angle[0] + 360.0 - angle[-1] <= 1.5 * np.diff(angle).max():
-        angle, taken = np.append(angle, angle[0] + 360.0), np.append(taken, taken[0])
-    return angle, taken, mirrored
+    gaps = np.diff(angle, append=angle[0] + 360.0)
+    if gaps.max() <= _OPEN * np.median(gaps):
+        return np.append(angle, angle[0] + 360.0), np.append(taken, taken[0]), mirrored
+    from_gap = np.roll(np.arange(len(angle)), -1 - np.argmax(gaps))
+    angle, taken = angle[from_gap], taken[from_gap]
+    return np.where(angle < angle[0], angle + 360.0, angle), taken, mirrored
 
 
 def _fill(
@@ -116,7 +123,7 @@ def _fill(
     colours = axis.contourf(around, speeds, values.T, levels, cmap="viridis", zorder=0)
     lines = axis.contour(around, speeds, values.T, levels[1:], colors="white", linewidths=0.7, zorder=1)
     axis.clabel(lines, fontsize=7, fmt="%g")
-    bar = figure.colorbar(colours, ax=axis, shrink=0.75, pad=0.12)
+    bar = figure.colorbar(colours, ax=axis, orientation="horizontal", shrink=0.8, pad=0.12, aspect=30)
     bar.set_label(label, fontsize=9)
     bar.ax.tick_params(labelsize=8, colors=INK)
 
@@ -136,6 +143,7 @@ def _dress(axis: PolarAxes, speeds: FloatArray) -> None:
     axis.set_rorigin(speeds.min() - _HOLE * span)
     axis.set_rlabel_position(112.5)
     axis.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
+    axis.tick_params(axis="x", pad=9)
     axis.tick_params(axis="y", labelsize=7, colors=INK)
     for label in axis.get_yticklabels():
         label.set_bbox({"facecolor": "white", "alpha": 0.6, "linewidth": 0.0, "pad": 0.6})
