@@ -1,4 +1,4 @@
-"""Speed of the pressure kernel beside NumPy, with and without look-up tables (TM 2003-190, end of section 7)."""
+"""Speed of the pressure kernel beside NumPy with and without look-up tables (TM 2003-190 section 7)."""
 
 import json
 import platform
@@ -90,9 +90,10 @@ class KernelSpeed:
             self.key,
             "Look-up tables and the pressure kernel (7)",
             "Do look-up tables for sine and exponential make the pressure quicker, and what does the kernel?",
-            f"One wetted-surface load of {told['panels']} panels in {told['components']} components, panels cut at"
+            f"One wetted-surface load of {told['panels']} panels in {told['components']} components, panels"
+            f" cut at"
             f" the water; all methods in one process and thread take turns, {POSES} poses at a time, CPU"
-            f" time, median of {told['rounds']} rounds ({told['machine']}). Tables of {4096} cosines a turn and"
+            f" time, median of {told['rounds']} rounds ({told['machine']}). Tables of 4096 cosines a turn and"
             " 65536 exponentials, without interpolation. Compilation is not counted.",
             _table(found),
             statements(found),
@@ -133,8 +134,10 @@ def statements(found: dict[str, dict[str, float]]) -> tuple[Statement, ...]:
         Statement(
             "Look-up tables for sine and cosine give no improvement over the numerical library (7)",
             look_up >= 1.0 - GAIN,
-            f"{look_up:.2g} times the time of NumPy's own functions; {1.0 - GAIN:g} or more is no improvement",
-            f"With the exponential from a table too it is {times[TABLES] / times[NUMPY]:.2g}. The pressure kernel takes {times[DIRECT] / times[NUMPY]:.2g} (direct sum) and"
+            f"{look_up:.2g} times the time of NumPy's own functions; {1.0 - GAIN:g} or more is no"
+            f" improvement",
+            f"With the exponential from a table too it is {times[TABLES] / times[NUMPY]:.2g}. The pressure"
+            f" kernel takes {times[DIRECT] / times[NUMPY]:.2g} (direct sum) and"
             f" {times[GRID] / times[NUMPY]:.2g} (grid) of that time.",
         ),
     )

@@ -16,7 +16,7 @@ _DECAY = np.exp(-DEEPEST / DEPTHS * (np.arange(DEPTHS) + 0.5))
 
 @dataclass(frozen=True)
 class LookUpSurroundings(Surroundings):
-    """The water about the ship in sinusoidal waves with Wheeler stretching, from tables without interpolation.
+    """The water about the ship in sinusoidal waves with Wheeler stretching, by the nearest entries of tables.
 
     The report had sine and cosine from tables; with `decay_too` the exponential as well.
     """
