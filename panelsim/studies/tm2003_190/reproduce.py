@@ -22,6 +22,7 @@ from panelsim.studies.tm2003_190.page import Making, page
 from panelsim.studies.tm2003_190.regular_waves import RegularWaves
 from panelsim.studies.tm2003_190.runs_folder import open_runs_folder, timed
 from panelsim.studies.tm2003_190.section import MeasuringStudy, Section, Study
+from panelsim.studies.tm2003_190.statistics import SamplingStatistics
 from panelsim.studies.tm2003_190.stretching import Stretching
 from panelsim.studies.tm2003_190.time_step import TimeStep
 from panelsim.view.study_recording import record_study
@@ -157,6 +158,7 @@ def reproduction(*, quick: bool, runs: Path) -> Reproduction:
         Stretching(base, quick),
         Drift(base, quick),
         KernelSpeed(base, quick),
+        SamplingStatistics(base, quick),
     ]
     return Reproduction(studies, scope, "quick" if quick else "full", runs)
 
