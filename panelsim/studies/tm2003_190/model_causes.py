@@ -121,11 +121,13 @@ def cause_in_words(frequencies: Frequencies, parts: Mapping[str, LoadParts]) -> 
     share, change = frequencies.elsewhere[:, SLOW].mean(), np.median(np.abs(frequencies.change[:, SLOW]))
     told = (
         f"of surge, sway, roll and yaw in bow quartering seas {100 * share:.0f} % of the variance on average is"
-        f" at differences and sums of the waves' frequencies, while at those frequencies themselves the models"
+        " at differences and sums of the waves' frequencies, while at those frequencies themselves the models"
         f" differ by {100 * change:.0f} % (median)"
     )
-    if not parts:
-        return told
-    first = next(iter(parts.values())).shares
-    largest = PARTS[int(np.argmax(first[:, SLOW].mean(axis=1)))]
-    return f"{told}; the load that makes it is the product of {largest}"
+    return "; ".join([told, *(_largest_load(sea, one) for sea, one in parts.items())])
+
+
+def _largest_load(sea: str, parts: LoadParts) -> str:
+    """Which load has the largest share in the difference of these four motions."""
+    share = parts.shares[:, SLOW].mean(axis=1)
+    return f"most of it comes from {PARTS[int(np.argmax(share))]} ({100 * share.max():.0f} %) in {sea}"

@@ -196,8 +196,8 @@ def _seeds(scope: Scope) -> str:
     return (
         f"Significant heights {heights} m, {scope.duration:g} s after a ramp of 60 s, realizations of each"
         f" sea: {scope.realizations}, for linear against nonlinear {scope.model_realizations}; the seed is"
-        " 1000 times the height in metres plus the number of the realization, the same in all studies, so that"
-        " differences are none of sampling."
+        " 1000 times the height in metres plus the number of the realization, the same in all studies, so"
+        " that differences are none of sampling."
     )
 
 
