@@ -124,6 +124,7 @@ _HOMES = {
     "Case": "case",
     "FrozenWave": "studies.righting",
     "righting_arm_in_wave": "studies.righting",
+    "sweep": "studies.sweep",
 }
 __all__ = sorted(_HOMES)
 
@@ -241,6 +242,7 @@ if TYPE_CHECKING:
     from panelsim.ship.ship import Ship as Ship
     from panelsim.studies.righting import FrozenWave as FrozenWave
     from panelsim.studies.righting import righting_arm_in_wave as righting_arm_in_wave
+    from panelsim.studies.sweep import sweep as sweep
     from panelsim.view.recording import record as record
     from panelsim.view.report import report as report
 

@@ -23,7 +23,8 @@ def run_code(page: str) -> dict[str, object]:
 
 
 @pytest.mark.parametrize(
-    ("page", "name", "shape"), [("pressure.md", "force", (6,)), ("coefficients.md", "load", (3, 6))]
+    ("page", "name", "shape"),
+    [("pressure.md", "force", (6,)), ("coefficients.md", "load", (3, 6)), ("studies.md", "roll", (2,))],
 )
 def test_the_code_of_a_page_runs(page: str, name: str, shape: tuple[int, ...]) -> None:
     assert run_code(page)[name].shape == shape  # type: ignore[attr-defined]

@@ -1,4 +1,4 @@
-"""The command line: panelsim new, check, sea, run, decay, hull, righting, hydro, view, export."""
+"""The command line: panelsim new, check, sea, run, sweep, decay, hull, righting, hydro, view, export."""
 
 import signal
 import sys

@@ -17,13 +17,18 @@ from panelsim.case import Case
 from panelsim.case.ship_section import is_mesh_file
 from panelsim.case.template import case_template, hull_entry
 from panelsim.cli.arguments import refuse_existing, require_suffix, ship_of
+from panelsim.cli.compare import compare
+from panelsim.cli.converge import converge
+from panelsim.cli.cost import cost
 from panelsim.cli.decay import decay
 from panelsim.cli.hydro import hydro
 from panelsim.cli.options import EXIT_BAD_INPUT, EXIT_ENDED_EARLY, Force, Overrides
+from panelsim.cli.reproduce import reproduce
 from panelsim.cli.respond import respond
 from panelsim.cli.righting import righting
 from panelsim.cli.show import err, out, progress_bars, say, show_case, show_facts, show_result, warn
 from panelsim.cli.show_sea import show_sea
+from panelsim.cli.sweep import sweep
 from panelsim.errors import PanelsimError
 from panelsim.files import replacing
 from panelsim.hull.checks import check_mesh, require_sound
@@ -44,6 +49,9 @@ app = typer.Typer(
     rich_markup_mode=None,  # it takes the "[m]" of a unit for markup
 )
 app.command()(decay)
+app.command()(cost)
+app.add_typer(converge, name="converge")
+app.add_typer(compare, name="compare")
 
 _NUMBERS = {"float_parsing": "a number", "int_parsing": "a whole number"}
 
@@ -283,6 +291,9 @@ def sea(
 app.command("response")(respond)
 
 
+app.command()(sweep)
+
+
 @app.command()
 def hull(
     what: Annotated[str, typer.Argument(help="A bundled hull, a hull folder or a case file.")],
@@ -325,6 +336,9 @@ app.command()(righting)
 
 
 app.command()(hydro)
+
+
+app.command()(reproduce)
 
 
 @app.command()

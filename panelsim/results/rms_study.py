@@ -67,15 +67,20 @@ class RmsStudy:
 
     @property
     def band(self) -> FloatArray:
-        """Half width (L, S, 6) of the 95 % confidence band of `pooled`, over it; NaN for one realization.
+        """Half width (L, S, 6) of the 95 % confidence band of `pooled`, over it; NaN for one realization."""
+        return confidence_band(np.moveaxis(self.rms, 2, 0))
 
-        By Student's distribution of the realizations' variances; that of the root is half of it.
-        """
-        count = self.rms.shape[2]
-        if count < 2:
-            return np.full(self.pooled.shape, np.nan)
-        variance = self.rms**2
-        error = variance.std(axis=2, ddof=1) / np.sqrt(count)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            share = error / variance.mean(axis=2)
-        return np.asarray(0.5 * student.ppf(0.5 + 0.5 * CONFIDENCE, count - 1) * share)
+
+def confidence_band(rms: FloatArray) -> FloatArray:
+    """Half width (…) of the 95 % confidence band of the pooled RMS of realizations (R, …), over it.
+
+    By Student's distribution of the realizations' variances; that of the root is half of it. NaN for one.
+    """
+    count = len(rms)
+    if count < 2:
+        return np.full(rms.shape[1:], np.nan)
+    variance = rms**2
+    error = variance.std(axis=0, ddof=1) / np.sqrt(count)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = error / variance.mean(axis=0)
+    return np.asarray(0.5 * student.ppf(0.5 + 0.5 * CONFIDENCE, count - 1) * share)

@@ -76,7 +76,7 @@ def case_response(
     """
     database = case.database(progress)
     require_waves_held(database, case.seaway.components)
-    heading = _own_heading(case)
+    heading = own_heading(case)
     speed = _with(speeds, case.speed)
     table = response(
         case.ship,
@@ -114,7 +114,7 @@ def in_case_sea(case: Case, table: TransferFunctions) -> xr.Dataset:
     if isinstance(sea, RandomSeaway) and sea.directional_spectrum is None:
         return table.in_sea(sea.point_spectrum, wave_headings=beta).assign_attrs(words)
     # On another course the same sea comes from another side: β = ν + π - χ.
-    courses = np.mod(sea.ship_heading + _own_heading(case) - beta, 2.0 * np.pi)
+    courses = np.mod(sea.ship_heading + own_heading(case) - beta, 2.0 * np.pi)
     spread = sea.directional_spectrum if isinstance(sea, RandomSeaway) else None
     found = table.in_sea(sea if spread is None else spread, ship_headings=courses)
     return found.rename(ship_heading="wave_heading").assign_coords(wave_heading=beta).assign_attrs(words)
@@ -153,7 +153,7 @@ def _frequencies(case: Case, database: HydroDatabase) -> FloatArray:
     return np.linspace(low, high, _FREQUENCIES)
 
 
-def _own_heading(case: Case) -> float:
+def own_heading(case: Case) -> float:
     """Mean wave heading β [rad, 0 to 2π] of the sea of the case."""
     waves = case.seaway.components
     mean = np.angle(np.sum(waves.amplitude**2 * np.exp(1j * waves.wave_heading)))

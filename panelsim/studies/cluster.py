@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from importlib.metadata import version
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from panelsim.errors import PanelsimError
 
@@ -101,7 +101,8 @@ def scheduler_client(address: str) -> Iterator["Client"]:
 def _require_workers_like_us(client: "Client", address: str) -> None:
     with suppress(TimeoutError):
         client.wait_for_workers(1, timeout=WORKER_SECONDS)
-    told = client.get_versions(packages=["panelsim"])["workers"]
+    answer: Any = client.get_versions(packages=["panelsim"])
+    told = answer["workers"]
     if not told:
         raise PanelsimError(
             "The Dask cluster has no workers",
@@ -132,9 +133,7 @@ def _quiet() -> Iterator[None]:
 
     assert distributed
     loggers = [logging.getLogger(name) for name in (*_LOGGERS, *logging.root.manager.loggerDict)]
-    ours = [
-        logger for logger in loggers if logger.name.startswith(_LOGGERS) and not logger.disabled
-    ]
+    ours = [logger for logger in loggers if logger.name.startswith(_LOGGERS) and not logger.disabled]
     try:
         for logger in ours:
             logger.disabled = True
@@ -146,7 +145,7 @@ def _quiet() -> Iterator[None]:
 
 @contextmanager
 def _main_module_left_alone() -> Iterator[None]:
-    """Let no process import the script that was started: without a main guard it would begin the study anew."""
+    """Let no process import the script that was started: without main guard it would begin the study anew."""
     main = sys.modules["__main__"]
     spec, file = main.__spec__, main.__dict__.pop("__file__", None)
     main.__spec__ = None

@@ -1,8 +1,8 @@
-"""Runs of a study, in as many processes as there are cores; those that are stored already are not made again."""
+"""Runs of a study, in as many processes as there are cores; those that are stored are not made again."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import CancelledError
-from contextlib import suppress
+from contextlib import closing, suppress
 from typing import TYPE_CHECKING
 
 from panelsim.case import Case
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from distributed import Client, Future
 
 Progress = Callable[[float, float], None]  # runs done, runs in all
-Answers = Iterator[tuple[Sequence[Case], Sequence[Answer]]]
+Answers = Generator[tuple[Sequence[Case], Sequence[Answer]], None, None]
 
 MOST_TOGETHER = 8  # more gain little (docs/batches.md)
 TASKS_A_WORKER = 4  # at least, where there are so many runs: the last ones to end leave few cores idle
@@ -51,25 +51,27 @@ def compute_runs(
     Raises PanelsimError for an address that is none, where no fitting cluster answers, and for workers that
     are no whole number above 0.
     """
-    _require_choice(workers, scheduler, group)
+    require_processes(workers, scheduler)
+    _require_count("group", group)
     missing = list({run_key(case): case for case in cases if case not in store}.values())
     if not missing:
         return
     done = 0
-    for made, answers in _answers(missing, workers, scheduler, group):
-        for case, answer in zip(made, answers, strict=True):
-            _keep(store, case, answer)
-        done += len(made)
-        if progress is not None:
-            progress(done, len(missing))
+    if progress is not None:
+        progress(done, len(missing))
+    with closing(_answers(missing, workers, scheduler, group)) as found:
+        for made, answers in found:
+            for case, answer in zip(made, answers, strict=True):
+                _keep(store, case, answer)
+            done += len(made)
+            if progress is not None:
+                progress(done, len(missing))
 
 
-def _require_choice(workers: int | None, scheduler: str | None, group: int) -> None:
-    for name, count in (("workers", workers), ("group", group)):
-        if count is not None and (not isinstance(count, int) or isinstance(count, bool) or count < 1):
-            raise PanelsimError(
-                f"The number of {name} is not possible", got=repr(count)[:60], allowed="1, 2, 3, …"
-            )
+def require_processes(workers: int | None, scheduler: str | None) -> None:
+    """Raise PanelsimError for a number of processes, or an address of a cluster, that cannot be."""
+    if workers is not None:
+        _require_count("workers", workers)
     if scheduler is None:
         return
     require_address(scheduler)
@@ -78,6 +80,13 @@ def _require_choice(workers: int | None, scheduler: str | None, group: int) -> N
             "A cluster that runs already has its own workers",
             got=f"workers {workers}, scheduler {scheduler}",
             remedy="leave out the number of workers",
+        )
+
+
+def _require_count(name: str, count: int) -> None:
+    if not isinstance(count, int) or isinstance(count, bool) or count < 1:
+        raise PanelsimError(
+            f"The number of {name} is not possible", got=repr(count)[:60], allowed="1, 2, 3, …"
         )
 
 
@@ -116,12 +125,17 @@ def _groups(cases: Sequence[Case], workers: int, most: int) -> list[list[Case]]:
 
 
 def _make_coefficients(cases: Sequence[Case]) -> None:
-    """Compute coefficients that are nowhere stored, so that not every process does; faults are told by runs."""
-    ships = {(case.file.ship.model_dump_json(), case.file.hydrodynamics.model_dump_json()): case for case in cases}
+    """Compute coefficients that are not stored, so that not every process does; faults are told by runs."""
+    ships = {
+        (case.file.ship.model_dump_json(), case.file.hydrodynamics.model_dump_json()): case for case in cases
+    }
     for case in ships.values():
         section = case.file.hydrodynamics
         with suppress(PanelsimError):
-            if section.file is None and stored_database(case.ship, section.method, section.section_form) is None:
+            if (
+                section.file is None
+                and stored_database(case.ship, section.method, section.section_form) is None
+            ):
                 database_for(case.ship, None, section.method, section.section_form)
 
 

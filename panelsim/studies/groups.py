@@ -1,4 +1,4 @@
-"""Runs that are stepped together: one ship in seas and at speeds of her own, each with its bits as if alone."""
+"""Runs that are stepped together: a ship in many seas and at many speeds, each with its bits as if alone."""
 
 import contextlib
 import json
@@ -10,14 +10,16 @@ from pathlib import Path
 
 from panelsim.case import Case
 from panelsim.errors import PanelsimError
+from panelsim.hydro.database import HydroDatabase
 from panelsim.motion.history import History
 from panelsim.studies.case_history import case_history, case_of_text, histories_together
 from panelsim.studies.run_store import kept_bytes, run_identity
 
 # A batch keeps a kilobyte a step while its histories are made.
 MOST_STEPS_TOGETHER = 200_000
-# What one force costs against the rest of a step, roughly; it only says which group is the longest.
-_NONLINEAR, _STAGES = 5.0, {"rk4": 4.0}
+# Evaluations a step, and panel area [m2] at which a force costs as much as the rest of the step: rough, and
+# they only say which group is the longest.
+_EVALUATIONS, _AREA = {"rk4": 4.0}, 20.0
 
 # Another thread of this process would gain nothing: a kernel holds Python's lock.
 _one_at_a_time = threading.Lock()
@@ -72,9 +74,9 @@ def _what_is_shared(case: Case) -> str:
 
 def _length(group: Sequence[Case]) -> float:
     """How long a group takes, in units of its own."""
-    run, area = group[0].file.run, group[0].file.ship.panel_area or 1.0
-    step = _STAGES.get(run.stepper, 1.0) * (_NONLINEAR / area if run.model == "nonlinear" else 1.0)
-    return len(group) * run.steps * step
+    run, area = group[0].file.run, group[0].file.ship.panel_area or _AREA
+    cost = 1.0 + (_AREA / area if run.model == "nonlinear" else 0.0)
+    return len(group) * run.steps * _EVALUATIONS.get(run.stepper, 1.0) * cost
 
 
 def make_group(requests: Sequence[Request]) -> list[Answer]:
@@ -108,7 +110,7 @@ def _alone(request: Request) -> Answer:
         return Failure(f"{type(error).__name__}: {' '.join(str(error).split())}", lasting)
 
 
-def _case(request: Request):
+def _case(request: Request) -> tuple[Case, HydroDatabase]:
     case, database = case_of_text(request.text, request.folder, request.name)
     if run_identity(case) != request.identity:
         raise _OtherFilesError(

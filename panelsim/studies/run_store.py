@@ -91,7 +91,7 @@ class RunStore:
         write_whole(self._failure_path(case), json.dumps(told, ensure_ascii=False).encode())
 
     def note_lost(self, case: Case, message: str) -> None:
-        """Tell why a run was lost that is none of the case's fault: not kept on disk, so that it is tried again."""
+        """Tell why a run was lost by no fault of the case: not kept on disk, so that it is tried again."""
         self._lost[run_key(case)] = message
 
     def failure(self, case: Case) -> str | None:

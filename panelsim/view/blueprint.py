@@ -25,17 +25,17 @@ def ship_blueprint(*, length: float, look_at: FloatArray) -> "rrb.Blueprint":
     import rerun.blueprint as rrb
 
     side = rrb.Vertical(
-        _curves("waves and heave", "/", ["/waves/**", "/motions/linear/heave"]),
-        _curves("surge and sway", "/", ["/motions/linear/surge", "/motions/linear/sway"]),
-        _curves("roll, pitch and yaw", "/motions/angular"),
+        scrolling_curves("waves and heave", "/", ["/waves/**", "/motions/linear/heave"]),
+        scrolling_curves("surge and sway", "/", ["/motions/linear/surge", "/motions/linear/sway"]),
+        scrolling_curves("roll, pitch and yaw", "/motions/angular"),
         rrb.Tabs(
-            *(_curves(f"loads: {name}", f"/loads/{name}") for name in DOF_NAMES),
+            *(scrolling_curves(f"loads: {name}", f"/loads/{name}") for name in DOF_NAMES),
             active_tab="loads: heave",
             name="loads",
         ),
     )
     picture = rrb.Vertical(
-        _ship_at_sea(length, look_at),
+        sea_view("ship at sea", look_at + length * np.array(CAMERA), look_at),
         rrb.Horizontal(
             rrb.TextDocumentView(origin="/statistics", name="statistics"),
             rrb.TextDocumentView(origin="/about", name="about this run"),
@@ -58,23 +58,27 @@ def ship_blueprint(*, length: float, look_at: FloatArray) -> "rrb.Blueprint":
     )
 
 
-def _ship_at_sea(length: float, look_at: FloatArray) -> "rrb.Spatial3DView":
+def sea_view(name: str, camera: FloatArray, look_at: FloatArray) -> "rrb.Spatial3DView":
+    """The ships and seas of a recording, from `camera` (3,) [m] towards `look_at` (3,) [m]."""
     import rerun.blueprint as rrb
 
     return rrb.Spatial3DView(
         origin="/world",
-        name="ship at sea",
+        name=name,
         background=[206, 219, 228],
         line_grid=rrb.LineGrid3D(visible=False),
         eye_controls=rrb.EyeControls3D(
-            position=look_at + length * np.array(CAMERA),
+            position=camera,
             look_target=look_at,
             eye_up=(0.0, 0.0, 1.0),
         ),
     )
 
 
-def _curves(name: str, origin: str, contents: list[str] | str = "$origin/**") -> "rrb.TimeSeriesView":
+def scrolling_curves(
+    name: str, origin: str, contents: list[str] | str = "$origin/**"
+) -> "rrb.TimeSeriesView":
+    """Curves that scroll past the cursor."""
     import rerun.blueprint as rrb
 
     window = rrb.TimeRange(

@@ -17,14 +17,23 @@ def liveliest_window(history: History, length: float) -> tuple[float, float]:
     The window lies within the run and, where the run is long enough, after its ramp.
     """
     rows = np.flatnonzero(history.finite)
-    time = history.time[rows] if len(rows) else history.time[:1]
+    if not len(rows):
+        return float(history.time[0]), float(history.time[0])
+    after_ramp = rows[history.time[rows] >= history.attrs["ramp"]]
+    if len(after_ramp) and history.time[rows[-1]] - history.attrs["ramp"] >= length:
+        rows = after_ramp
+    return window_of_steepest_deck(history.time[rows], history.displacement[rows], length)
+
+
+def window_of_steepest_deck(time: FloatArray, displacement: FloatArray, length: float) -> tuple[float, float]:
+    """Start and end [s] of the window of this length [s] within `time` (T,) where the deck slopes most.
+
+    `displacement` (T, 6) in rad and m; all of `time` where it is no longer than that.
+    """
     first, last = float(time[0]), float(time[-1])
-    after_ramp = time >= history.attrs["ramp"]
-    if after_ramp.any() and last - history.attrs["ramp"] >= length:
-        rows, time, first = rows[after_ramp], time[after_ramp], float(time[after_ramp][0])
     if last - first <= length:
         return first, last
-    roll, pitch = history.displacement[rows][:, [Dof.ROLL, Dof.PITCH]].T
+    roll, pitch = displacement[:, [Dof.ROLL, Dof.PITCH]].T
     summit = time[np.argmin(np.cos(roll) * np.cos(pitch))]
     start = float(np.clip(summit - 0.5 * length, first, last - length))
     return start, start + length

@@ -5,7 +5,7 @@ from scipy.spatial.transform import Rotation
 
 from panelsim.conventions import FloatArray, IntArray
 from panelsim.motion.history import History
-from panelsim.view.surfaces import SEA_OPACITY, SeaGrid, hull_colors, pressure_head
+from panelsim.view.surfaces import GRID_REACH, SEA_OPACITY, SeaGrid, hull_colors, pressure_head
 from panelsim.view.tape import Tape
 
 # Frames sent in one call: one at a time is twice as slow, a hundred at once slower still.
@@ -31,11 +31,13 @@ def send_hull(tape: Tape, history: History, rows: IntArray, world: str = "world"
         tape.send(f"{world}/ship/hull", batch, columns.partition([len(corners)] * len(batch)))
 
 
-def send_sea(tape: Tape, history: History, rows: IntArray, world: str = "world") -> None:
-    """The wave surface around the ship under `world`, at these rows."""
+def send_sea(
+    tape: Tape, history: History, rows: IntArray, world: str = "world", lengths: float = GRID_REACH
+) -> None:
+    """The wave surface under `world`, out to so many ship lengths on every side, at these rows."""
     import rerun as rr
 
-    sea = SeaGrid.around(history)
+    sea = SeaGrid.around(history, lengths)
     highest = max(float(np.abs(history.wave_elevation).max()), 1e-3)
     surface = rr.Mesh3D.from_fields(triangle_indices=sea.triangles, albedo_factor=0xFFFFFF00 | SEA_OPACITY)
     tape.stream.log(f"{world}/sea", surface, static=True)

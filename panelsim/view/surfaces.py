@@ -39,9 +39,9 @@ class SeaGrid:
     history: History
 
     @classmethod
-    def around(cls, history: History) -> "SeaGrid":
-        """The sea out to 1.2 ship lengths on every side."""
-        reach = GRID_REACH * float(history.loading["length"])
+    def around(cls, history: History, lengths: float = GRID_REACH) -> "SeaGrid":
+        """The sea out to so many ship lengths on every side."""
+        reach = lengths * float(history.loading["length"])
         line = np.linspace(-reach, reach, GRID_COUNT)
         waves = history.components
         k = waves.wavenumber(float(history.loading["gravity"]))

@@ -1,0 +1,233 @@
+"""Convergence of a case with its time step or its panels: which runs, and what they amount to."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from panelsim.case import Case
+from panelsim.case.ship_section import is_mesh_file
+from panelsim.conventions import RULES
+from panelsim.errors import PanelsimError
+from panelsim.motion.requirements import LONGEST_STEP
+from panelsim.results.convergence_order import ConvergenceOrder, convergence_order
+from panelsim.results.rms_study import RmsStudy
+from panelsim.results.verdicts import IDENTICAL, worst_difference
+from panelsim.ship.bundled import default_panel_area
+from panelsim.studies.rms_of_runs import rms_of_runs
+from panelsim.studies.run_store import RunStore
+from panelsim.studies.study_sea import realization, require_seeds, study_sea
+
+STEP_FACTORS = (0.5, 1.0, 2.0)
+AREA_FACTORS = (0.5, 1.0, 2.0, 4.0)
+# The reference is finer than the finest: half its step, half its panel area.
+FINER = 0.5
+MOST_LEVELS = 30
+ROUND_OFF = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Convergence:
+    """A case at several step sizes or panel areas, for each of some schemes, against one finer reference.
+
+    `value_key` and `scheme_key` are the keys of the case that are varied, `values` (L,) [s, m²] of the first,
+    falling, and `schemes` of the second. The reference has the first scheme.
+    """
+
+    key: str
+    title: str
+    varied: str
+    unit: str
+    case: Case
+    value_key: str
+    values: tuple[float, ...]
+    scheme_key: str
+    schemes: tuple[str, ...]
+    seeds: int
+
+    @property
+    def reference(self) -> float:
+        """Step [s] or panel area [m²] of the reference."""
+        return FINER * min(self.values)
+
+    @property
+    def reference_label(self) -> str:
+        scheme = f"{self.schemes[0]}, " if len(self.schemes) > 1 else ""
+        return f"{scheme}{self.reference:.4g} {self.unit} (reference)"
+
+    @cached_property
+    def _cases(self) -> dict[tuple[str, float, int], Case]:
+        """Every case by scheme, value and realization."""
+        levels = [(scheme, value) for scheme in self.schemes for value in self.values]
+        found = {}
+        for scheme, value in [(self.schemes[0], self.reference), *levels]:
+            changes: dict[str, Any] = {self.value_key: value}
+            # What the case leaves open stays open: it is one run, whether a scheme was named or not.
+            if getattr(self.case.file.run, self.scheme_key.removeprefix("run.")) != scheme:
+                changes[self.scheme_key] = scheme
+            changed = self.case.changed(changes)
+            for index in range(self.seeds):
+                found[scheme, value, index] = realization(changed, index)
+        return found
+
+    @property
+    def cases(self) -> list[Case]:
+        """Every case to run."""
+        return list(self._cases.values())
+
+    def case_of(self, scheme: str, level: int, index: int) -> Case:
+        """The case of a level and realization; the level after the last is the reference."""
+        if level == len(self.values):
+            return self._cases[self.schemes[0], self.reference, index]
+        return self._cases[scheme, self.values[level], index]
+
+    def study(self, store: RunStore, scheme: str) -> RmsStudy:
+        """What the stored runs of a scheme amount to, the reference as the last level."""
+        labels = [f"{value:.4g} {self.unit}" for value in self.values]
+        return rms_of_runs(
+            store,
+            lambda level, _, index: self.case_of(scheme, level, index),
+            title=f"{self.title}, {_words_of(self.scheme_key)} {scheme}",
+            varied=self.varied,
+            levels=[*labels, self.reference_label],
+            values=np.array([*self.values, self.reference]),
+            reference=len(self.values),
+            seas=[study_sea(self.case)],
+            realizations=self.seeds,
+        )
+
+    def order(self, study: RmsStudy, scheme: str) -> ConvergenceOrder:
+        """Order of convergence with the step, or with the length √A of a panel side."""
+        own = scheme == self.schemes[0]
+        if self.unit == "s":
+            # The samples of a run say its RMS to about a step in its duration.
+            floor = study.values / self.case.file.run.duration
+            return convergence_order(study, study.values, floor=floor, own_reference=own)
+        return convergence_order(study, np.sqrt(study.values), floor=ROUND_OFF, own_reference=own)
+
+
+def recommended(study: RmsStudy) -> float | None:
+    """The coarsest value at which, and at all finer ones, the major modes are within 1 % of the reference."""
+    coarsest = None
+    for level in np.argsort(study.values):
+        if level == study.reference:
+            continue
+        if not abs(worst_difference(study, int(level)).amount) <= IDENTICAL:
+            break
+        coarsest = float(study.values[level])
+    return coarsest
+
+
+def time_step_convergence(
+    case: Case, steps: Sequence[float] = (), steppers: Sequence[str] = (), seeds: int = 1
+) -> Convergence:
+    """Time steps [s], by default half, once and twice that of the case; steppers, by default its own.
+
+    Raises PanelsimError for steps and steppers that no run may have, and for a sea without waves or seeds.
+    """
+    _require_sea(case, seeds)
+    own = case.file.run.time_step
+    study = Convergence(
+        key="time-step",
+        title="Time step",
+        varied="time step [s]",
+        unit="s",
+        case=case,
+        value_key="run.time_step",
+        values=falling("time steps", steps or [factor * own for factor in STEP_FACTORS], "s"),
+        scheme_key="run.stepper",
+        schemes=_different("steppers", steppers or [case.file.run.stepper], tuple(LONGEST_STEP)),
+        seeds=seeds,
+    )
+    _ = study.cases  # what no case may have is refused before anything is run
+    return study
+
+
+def mesh_convergence(
+    case: Case, panel_areas: Sequence[float] = (), rules: Sequence[str] = (), seeds: int = 1
+) -> Convergence:
+    """Panel areas [m²], by default half, once, twice and four times those of the ship; pressure rules.
+
+    A linear case is studied too: its restoring and Froude-Krylov forces are sums over panels. Raises
+    PanelsimError for areas and rules that no ship or run may have, for a ship of a mesh file, which has its
+    own panels, for pressure rules of a linear case, and for a sea without waves or seeds.
+    """
+    _require_sea(case, seeds)
+    run = case.file.run
+    if rules and run.model == "linear":
+        raise PanelsimError(
+            "The linear model integrates no pressure over the wet panels, and has no pressure rule",
+            got=f'run.model = "linear" with rules {", ".join(rules)}',
+            remedy="leave the rules out, or set run.model to nonlinear",
+        )
+    study = Convergence(
+        key="mesh",
+        title="Panels",
+        varied="panel area [m2]",
+        unit="m2",
+        case=case,
+        value_key="ship.panel_area",
+        values=falling("panel areas", panel_areas or _areas_about_own(case), "m2"),
+        scheme_key="run.pressure_rule",
+        schemes=_different("pressure rules", rules or [run.pressure_rule], RULES),
+        seeds=seeds,
+    )
+    require_panels(case)
+    _ = study.cases
+    return study
+
+
+def _words_of(key: str) -> str:
+    """The last part of a key of the case, as words: run.pressure_rule, pressure rule."""
+    return key.rpartition(".")[2].replace("_", " ")
+
+
+def _areas_about_own(case: Case) -> list[float]:
+    require_panels(case)
+    form = case.ship.form
+    assert form is not None
+    own = case.file.ship.panel_area or default_panel_area(form)
+    return [factor * own for factor in AREA_FACTORS]
+
+
+def require_panels(case: Case) -> None:
+    """Raise PanelsimError for a ship whose panels are given."""
+    if is_mesh_file(case.file.ship.hull):
+        raise PanelsimError(
+            "A mesh file has its own panels, which no panel area makes finer or coarser",
+            got=f'ship.hull = "{case.file.ship.hull}"',
+            allowed="a bundled hull or a hull folder",
+            remedy="write the mesh at several sizes of panel, and run the case with each by"
+            " --set ship.hull=FILE",
+        )
+
+
+def _require_sea(case: Case, seeds: int) -> None:
+    study_sea(case)
+    require_seeds(case, seeds)
+
+
+def falling(what: str, values: Sequence[float], unit: str) -> tuple[float, ...]:
+    """Values that differ, are positive and not too many, the largest first."""
+    told = ", ".join(f"{value:g}" for value in values)
+    if not all(np.isfinite(value) and value > 0.0 for value in values):
+        raise PanelsimError(f"The {what} are not positive", got=f"{told} {unit}", allowed="more than 0")
+    if len(set(values)) < len(values) or len(values) > MOST_LEVELS:
+        raise PanelsimError(
+            f"The {what} are not different ones, {MOST_LEVELS} at most",
+            got=f"{told} {unit}",
+            remedy="give each once",
+        )
+    return tuple(sorted((float(value) for value in values), reverse=True))
+
+
+def _different(what: str, words: Sequence[str], known: tuple[str, ...]) -> tuple[str, ...]:
+    if len(set(words)) < len(words) or not set(words) <= set(known):
+        raise PanelsimError(
+            f"The {what} are not different ones of those that there are",
+            got=", ".join(words),
+            allowed=", ".join(known),
+        )
+    return tuple(words)

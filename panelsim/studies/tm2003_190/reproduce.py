@@ -1,0 +1,212 @@
+"""TM 2003-190 reproduced: the studies, their runs, and the page that is made of them."""
+
+import shutil
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from panelsim.case import Case
+from panelsim.errors import PanelsimError
+from panelsim.files import replacing, write_whole
+from panelsim.studies.computing import compute_runs
+from panelsim.studies.run_store import RunStore, StoredRun, run_key
+from panelsim.studies.tm2003_190.common import FULL, QUICK, Scope, base_case
+from panelsim.studies.tm2003_190.cost import Cost
+from panelsim.studies.tm2003_190.drift import Drift
+from panelsim.studies.tm2003_190.kernel_speed import KernelSpeed
+from panelsim.studies.tm2003_190.linear_nonlinear import LinearNonlinear
+from panelsim.studies.tm2003_190.mesh import Mesh
+from panelsim.studies.tm2003_190.page import Making, page
+from panelsim.studies.tm2003_190.regular_waves import RegularWaves
+from panelsim.studies.tm2003_190.runs_folder import open_runs_folder, timed
+from panelsim.studies.tm2003_190.section import MeasuringStudy, Section, Study
+from panelsim.studies.tm2003_190.statistics import SamplingStatistics
+from panelsim.studies.tm2003_190.stretching import Stretching
+from panelsim.studies.tm2003_190.time_step import TimeStep
+from panelsim.view.study_recording import record_study
+
+NAME = "tm2003-190"
+FOLDERS = ("pictures", "tables", "recordings")
+Progress = Callable[[str, float, float], None]  # key of the study, done, in all
+
+
+class CountingStore(RunStore):
+    """Runs on disk, with the CPU seconds of those that have been read: reading all of them takes a while."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(folder)
+        self.cpu_seconds: dict[str, float] = {}
+
+    def load(self, case: Case) -> StoredRun:
+        run = super().load(case)
+        self.cpu_seconds[run_key(case)] = float(run.attrs["cpu_seconds"])
+        return run
+
+
+@dataclass(frozen=True)
+class Reproduction:
+    """The studies of the report over a folder of runs; `extent` is "full" or "quick"."""
+
+    studies: Sequence[Study]
+    scope: Scope
+    extent: str
+    runs: Path
+
+    @property
+    def store(self) -> RunStore:
+        return RunStore(self.runs)
+
+    @property
+    def missing(self) -> int:
+        """How many runs and measurements are not stored."""
+        runs = {run_key(case) for study in self.studies for case in study.cases if case not in self.store}
+        return len(runs) + len(self._unmeasured)
+
+    @property
+    def _unmeasured(self) -> list[MeasuringStudy]:
+        return [
+            study
+            for study in self.studies
+            if isinstance(study, MeasuringStudy) and not study.is_measured(self.store)
+        ]
+
+    def require_complete(self) -> None:
+        """Raise PanelsimError where a page cannot be made without running."""
+        open_runs_folder(self.runs, NAME, self.extent)
+        missing = self.missing
+        if missing:
+            raise PanelsimError(
+                "Runs of the study are not stored",
+                got=f"{missing} are missing in {self.runs}",
+                remedy="leave --from-runs out: what is there is not run again",
+            )
+
+    def make_runs(
+        self, *, workers: int | None = None, scheduler: str | None = None, progress: Progress | None = None
+    ) -> None:
+        """Make what is not stored yet: the runs of all studies, then the measurements, alone.
+
+        Raises PanelsimError for a folder of other runs, and as `compute_runs`.
+        """
+        note = open_runs_folder(self.runs, NAME, self.extent)
+        cases, keys = self._missing_cases()
+        with timed(self.runs, note):
+            compute_runs(
+                cases,
+                self.store,
+                workers=workers,
+                scheduler=scheduler,
+                progress=_named(keys, progress) if progress is not None else None,
+            )
+            for study in self._unmeasured:
+                if progress is not None:
+                    progress(study.key, 0, 1)
+                study.measure(self.store)
+                if progress is not None:
+                    progress(study.key, 1, 1)
+
+    def _missing_cases(self) -> tuple[list[Case], list[str]]:
+        """Cases to be run, study by study, and the study that each is of."""
+        found: dict[str, tuple[Case, str]] = {}
+        for study in self.studies:
+            for case in study.cases:
+                key = run_key(case)
+                if key not in found and case not in self.store:
+                    found[key] = (case, study.key)
+        return [case for case, _ in found.values()], [name for _, name in found.values()]
+
+    def make_page(self, folder: Path, progress: Progress | None = None) -> tuple[Section, ...]:
+        """Write README.md, pictures, tables and recordings into the folder, from stored runs alone.
+
+        What an older page had of these is replaced, at the end and in one go.
+        """
+        note = open_runs_folder(self.runs, NAME, self.extent)
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as beside:
+            sections, store = [], CountingStore(self.runs)
+            for done, study in enumerate(self.studies):
+                if progress is not None:
+                    progress(f"page: {study.key}", done, len(self.studies))
+                sections.append(_write_section(study, store, Path(beside)))
+            making = Making(
+                version("panelsim"),
+                note.machine,
+                self.extent,
+                _seeds(self.scope),
+                len({run_key(case) for study in self.studies for case in study.cases}),
+                sum(store.cpu_seconds.values()),
+                note.wall_seconds,
+            )
+            write_whole(Path(beside) / "README.md", page(sections, making).encode())
+            _replace(folder, Path(beside))
+        if progress is not None:
+            progress("page", 1, 1)
+        return tuple(sections)
+
+
+def reproduction(*, quick: bool, runs: Path) -> Reproduction:
+    """All studies of the report, or a reduced set of them, over a folder of runs."""
+    scope, base = QUICK if quick else FULL, base_case()
+    studies: list[Study] = [
+        TimeStep(base, scope),
+        Mesh(base, scope),
+        LinearNonlinear(base, scope),
+        Cost(base, *((120.0, 3) if quick else (600.0, 5))),
+        RegularWaves(base, quick),
+        Stretching(base, quick),
+        Drift(base, quick),
+        KernelSpeed(base, quick),
+        SamplingStatistics(base, quick),
+    ]
+    return Reproduction(studies, scope, "quick" if quick else "full", runs)
+
+
+def _write_section(study: Study, store: RunStore, folder: Path) -> Section:
+    """The section of a study, its pictures, tables and recording written into the folder."""
+    pictures, tables, recordings = (folder / name for name in FOLDERS)
+    pictures.mkdir(exist_ok=True)
+    section = study.section(store, pictures)
+    for name, text in section.tables.items():
+        write_whole(tables / name, text.encode())
+    if section.rms:
+        known = {name: case for name, case in section.series.items() if store.failure(case) is None}
+        record_study(
+            recordings / f"{section.key}.rrd",
+            section.rms,
+            title=section.title,
+            text=f"# {section.title}\n\n{section.setup}\n\n{section.body}",
+            series={name: store.load(case) for name, case in known.items()},
+        )
+    return section
+
+
+def _named(keys: Sequence[str], progress: Progress) -> Callable[[float, float], None]:
+    """A callback of `compute_runs` that tells the study too; runs are made about in their order."""
+
+    def told(done: float, total: float) -> None:
+        progress(keys[min(int(done), len(keys) - 1)], done, total)
+
+    return told
+
+
+def _seeds(scope: Scope) -> str:
+    heights = ", ".join(f"{height:g}" for height in scope.heights)
+    return (
+        f"Significant heights {heights} m, {scope.duration:g} s after a ramp of 60 s, realizations of each"
+        f" sea: {scope.realizations}, for linear against nonlinear {scope.model_realizations}; the seed is"
+        " 1000 times the height in metres plus the number of the realization, the same in all studies, so"
+        " that differences are none of sampling."
+    )
+
+
+def _replace(folder: Path, made: Path) -> None:
+    """Put a page in the place of an older one, README.md last; other files in the folder stay."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in FOLDERS:
+        shutil.rmtree(folder / name, ignore_errors=True)
+        if (made / name).is_dir():
+            (made / name).rename(folder / name)
+    with replacing(folder / "README.md") as beside:
+        shutil.copyfile(made / "README.md", beside)
