@@ -12,7 +12,7 @@ TIME = 0.2 * np.arange(1501)
 
 
 def _signal(time: FloatArray) -> FloatArray:
-    """Mean 0.3, first harmonic 2 with a lead of 0.4, second 0.5 with a lag of 1.1, third 0.1; and a cosine."""
+    """Mean 0.3, harmonics 2 with a lead of 0.4, 0.5 with a lag of 1.1, and 0.1; beside it a cosine."""
     theta = OMEGA * time
     first = 0.3 + 2.0 * np.cos(theta + 0.4) + 0.5 * np.cos(2 * theta - 1.1) + 0.1 * np.sin(3 * theta)
     return np.column_stack([first, -np.cos(theta)])
@@ -42,7 +42,10 @@ def test_a_transient_is_told() -> None:
     found = harmonics(TIME, _signal(TIME) + transient[:, None], OMEGA, after=20.0)
     window = 18 * 2 * np.pi / OMEGA
     end = TIME[-1]
-    mean = [300.0 / window * (np.exp(-(end - (i + 1) * window) / 100) - np.exp(-(end - i * window) / 100)) for i in (0, 1)]
+    mean = [
+        300.0 / window * (np.exp(-(end - (i + 1) * window) / 100) - np.exp(-(end - i * window) / 100))
+        for i in (0, 1)
+    ]
     # The first harmonics see a little of the slope of the mean.
     assert found.change == pytest.approx(mean[1] - mean[0], rel=0.02)
     assert found.unsettled == pytest.approx(found.change / found.amplitude[0])

@@ -10,7 +10,7 @@ from panelsim.hydro.roll_damping.terms import RollDampingTerms
 from panelsim.loads.supplementary import Supplementary
 from panelsim.response.response import Response, response
 from panelsim.response.run_length import SamplingError, sampling_error
-from panelsim.seaway.frequencies import EvenFrequencies, JitteredFrequencies
+from panelsim.seaway.frequencies import EvenFrequencies
 from panelsim.seaway.random import RandomSeaway
 from panelsim.seaway.regular import RegularSeaway
 from panelsim.seaway.spectra.bretschneider import Bretschneider
@@ -102,7 +102,7 @@ def test_random_phases_scatter_the_rms_as_told() -> None:
     expected = np.sqrt(error.moving(duration).sum())
     # The slow wave alone has an RMS of 6.4: 0.36 is left.
     assert rms.mean() == pytest.approx(expected, rel=0.01)
-    # Standard deviations of 4000 draws are good to 1.1 %; the band is of first order in the scatter, 8 % here.
+    # Standard deviations of 4000 draws are good to 1.1 %; the band is of first order in a scatter of 8 %.
     assert 1.959964 * rms.std() / expected == pytest.approx(error.band(duration)[0], rel=0.06)
 
 

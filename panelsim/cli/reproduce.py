@@ -71,7 +71,7 @@ def _teller(track: Callable[[str], Callable[[float, float], None]]) -> Callable[
                 older(1, 1)  # hides it
             bars[name] = track(name)
             if not err.is_terminal:
-                err.print(f"{name}: {done:g} of {total:g}")
+                err.print(name)
         bars[name](done, total)
 
     return tell

@@ -1,4 +1,4 @@
-"""How near the RMS of a run comes to that of its sea, and how long or how many runs it takes to come nearer."""
+"""How near the RMS of a run comes to that of its sea, and what length or number of runs brings it nearer."""
 
 from dataclasses import dataclass
 
@@ -22,18 +22,19 @@ SHORTEST = 10.0  # s
 # Shares of the energy left out below and above, and the width of a band over its frequency.
 _TAILS = (1e-5, 1e-4)
 _BAND = 0.01
-_LENGTHS_PER_DECADE = 20
+# Lengths that are tried in a decade: beats of waves rise and fall, the band of a spectrum falls evenly.
+_OF_WAVES, _OF_SPECTRUM = 20, 6
 
 
 @dataclass(frozen=True, eq=False)
 class SamplingError:
     """How far the RMS of runs may lie from that of their sea by chance: K signals, one speed, one course.
 
-    `frequency` [rad/s]: the signed frequencies of encounter (M,) of waves, or the edges (M + 1,) of the bands of
-    a continuous spectrum, which rise, and fall again where the ship overtakes the waves. `variance` (M, K) that
-    each gives each signal, in the squares of their units. Phases are random; of a band, amplitudes as well.
-    `grid_error` (K,) is the RMS of the waves over that of the spectrum which they stand for, less 1, None where
-    there is none: it is not chance, and neither longer runs nor other phases mend it.
+    `frequency` [rad/s]: the signed frequencies of encounter (M,) of waves, or the edges (M + 1,) of the bands
+    of a continuous spectrum, which rise, and fall again where the ship overtakes the waves. `variance` (M, K)
+    that each gives each signal, in the squares of their units. Phases are random; of a band, amplitudes as
+    well. `grid_error` (K,) is the RMS of the waves over that of the spectrum which they stand for, less 1,
+    None where there is none: it is not chance, and neither longer runs nor other phases mend it.
     """
 
     names: tuple[str, ...]
@@ -79,13 +80,14 @@ class SamplingError:
         """Length (K,) [s] from which on a single run has this band (0.05 is 5 %), to 3 %.
 
         Infinite where no run up to `longest` [s] has: waves that meet the ship at nearly one frequency beat
-        more slowly, and then only runs of other phases help, `realizations`. Raises PanelsimError for a band or
-        a length that is not positive.
+        more slowly, and then only runs of other phases help, `realizations`. Raises PanelsimError for a band
+        or a length that is not positive.
         """
         wanted = require_positive("band", band, "")
         last = require_positive("longest run", longest, "s")
         first = min(SHORTEST, 0.1 * last)
-        lengths = np.geomspace(first, last, int(_LENGTHS_PER_DECADE * np.log10(last / first)))
+        per_decade = _OF_SPECTRUM if self.spectral else _OF_WAVES
+        lengths = np.geomspace(first, last, int(per_decade * np.log10(last / first)))
         bands = np.array([self.band(float(length)) for length in lengths])
         return np.array([_from_which_on(lengths, of_one, wanted) for of_one in bands.T])
 
@@ -111,10 +113,10 @@ def sampling_error(
 ) -> SamplingError:
     """The sampling error of linear motions, or of the signals of a point, in a sea.
 
-    A seaway is its own components, met on its own course; a random one from one direction is compared with its
-    spectrum. A point spectrum is long-crested from `wave_heading` β [rad], by default that of a table with
-    one. `speed` [m/s] is by default that of a table with one. Roll damping is that which stands for all of
-    its terms in this sea. Raises PanelsimError for seas of another kind, a heading with a seaway, none or
+    A seaway is its own components, met on its own course; a random one from one direction is compared with
+    its spectrum. A point spectrum is long-crested from `wave_heading` β [rad], by default that of a table
+    with one. `speed` [m/s] is by default that of a table with one. Roll damping is that which stands for all
+    of its terms in this sea. Raises PanelsimError for seas of another kind, a heading with a seaway, none or
     several to choose from without one, and where the coefficients do not reach.
     """
     own = float(_one_of("speed", speed, table.speeds))
@@ -123,7 +125,9 @@ def sampling_error(
         return _of_spectrum(table, sea, own, heading)
     if not isinstance(sea, Seaway) or not sea.components.count:
         raise PanelsimError(
-            "The sea is of another kind", got=repr(sea)[:60], allowed="a seaway with waves, or a point spectrum"
+            "The sea is of another kind",
+            got=repr(sea)[:60],
+            allowed="a seaway with waves, or a point spectrum",
         )
     if wave_heading is not None:
         raise PanelsimError("A seaway has its own heading", got=f"wave_heading={wave_heading!r}")
@@ -177,6 +181,9 @@ def _damping(
     table: TransferFunctions, sea: Seaway | PointSpectrum, speed: float, heading: float | None
 ) -> float:
     """Linear roll damping [N m s] that stands for all terms in this sea."""
+    terms = table.roll_damping[int(np.argmin(np.abs(table.speeds - speed)))]
+    if terms.quadratic == 0.0 and terms.cubic == 0.0:
+        return terms.linear
     headings = None if heading is None else [heading]
     found = table.in_sea(sea, wave_headings=headings)["equivalent_roll_damping"]
     return float(found.values[int(np.argmin(np.abs(table.speeds - speed))), 0])

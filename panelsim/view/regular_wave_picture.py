@@ -24,7 +24,7 @@ def regular_wave_picture(
     lines: Mapping[str, FloatArray],
     points: Mapping[str, FloatArray],
 ) -> Path:
-    """Draw heave and pitch over λ/L: up to three curves as lines and up to five as markers, (R, 2) by label."""
+    """Draw heave and pitch over λ/L: up to three lines and up to five kinds of marker, (R, 2) by label."""
     figure = Figure(figsize=(11, 4.8), layout="constrained")
     axes = figure.subplots(1, 2)
     for mode, axis in enumerate(axes):

@@ -2,7 +2,7 @@
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,7 +13,7 @@ from panelsim.case import Case
 from panelsim.conventions import FloatArray
 from panelsim.results.rms_tables import markdown_table
 from panelsim.seaway.dispersion import encounter_frequency
-from panelsim.studies.run_store import RunStore
+from panelsim.studies.run_store import RunStore, StoredRun
 from panelsim.studies.tm2003_190.common import BOW_QUARTERING, HEADINGS_DEG
 from panelsim.studies.tm2003_190.section import Section, Statement
 from panelsim.view.drift_picture import drift_picture
@@ -22,6 +22,7 @@ HEIGHT, PERIOD = 7.5, 15.0  # m, s: sea state 7 of the report
 LOW_HEIGHTS = (0.25, 0.5, 1.0, 2.0, 4.0)  # m, at the same period
 QUICK_LOW_HEIGHTS = (0.5, 1.0)
 DURATION = 600.0  # s
+Key = tuple[str, float, str]  # kind of run, heading [deg], model
 MODELS = ("nonlinear", "linear")
 FREE, NO_SPRINGS, SHIFTED, HELD = "free", "no yaw spring", "other components", "held"
 SECOND_ORDER = (1.7, 2.3)  # powers of the height that are the second, whatever is left of the next
@@ -38,8 +39,8 @@ class Drift:
     key: str = "drift"
 
     @cached_property
-    def free(self) -> dict[tuple[str, float, str], Case]:
-        """Sea state 7 by kind of run, heading [deg] and model: free in surge and sway, in the seas of section 8.
+    def free(self) -> dict[Key, Case]:
+        """Sea state 7 by kind of run, heading [deg] and model: free in surge and sway.
 
         Then without the yaw spring too; and the linear model in components between those of the report.
         """
@@ -59,7 +60,7 @@ class Drift:
 
     @cached_property
     def held(self) -> dict[tuple[float, str], Case]:
-        """Low bow quartering seas by height [m] and model, with the springs: the mean force is in the springs."""
+        """Low bow quartering seas by height [m] and model, with the springs, which hold the mean force."""
         heights = QUICK_LOW_HEIGHTS if self.quick else LOW_HEIGHTS
         return {
             (height, model): self._case(BOW_QUARTERING, height, model)
@@ -85,55 +86,50 @@ class Drift:
 
     def section(self, store: RunStore, folder: Path) -> Section:
         """Read the runs, draw the picture into the folder, say what they show."""
-        failed = {key: store.failure(case) for key, case in {**self.free, **self.held}.items()}
-        runs = {key: store.load(case) for key, case in self.free.items() if not failed[key]}
-        tracks = {key: run.displacement[:, :2] for key, run in runs.items()}
+        runs = {key: store.load(case) for key, case in self.free.items() if store.failure(case) is None}
         force = self.mean_force(store)
         paths = {
-            f"{model}, {heading:g}°": (runs[FREE, heading, model].time, tracks[FREE, heading, model])
-            for heading in HEADINGS_DEG
-            for model in MODELS
-            if (FREE, heading, model) in runs
+            f"{model}, {heading:g}°": (run.time, run.displacement[:, :2])
+            for (kind, heading, model), run in runs.items()
+            if kind == FREE
         }
         picture = drift_picture(folder / "drift.png", paths, force)
-        ends = {key: run.early_end for key, run in runs.items() if key[0] == NO_SPRINGS}
-        went = {key: track for key, track in tracks.items() if runs[key].early_end is None}
         return Section(
             self.key,
             "Drift without springs (8)",
             "How far does the ship go without supplementary terms in surge and sway, and why?",
-            f"20 knots, H_s {HEIGHT:g} m, T_p {PERIOD:g} s, ten minutes after the ramp; roll damping and yaw spring"
-            " as in the report, nothing in surge and sway. A run ends where yaw passes 60°.",
-            self._table(tracks, ends) + _force_table(force),
-            tuple(
-                drift_statement(
-                    heading,
-                    went.get((FREE, heading, "nonlinear")),
-                    went.get((FREE, heading, "linear")),
-                    went.get((SHIFTED, heading, "linear")),
-                    self.base.ship.length,
-                    slow=self._slowest(heading),
-                )
-                for heading in HEADINGS_DEG
-            )
-            + (force_statement(force),),
+            f"20 knots, H_s {HEIGHT:g} m, T_p {PERIOD:g} s, ten minutes after the ramp; roll damping and yaw"
+            " spring as in the report, nothing in surge and sway. A run ends where yaw passes 60°.",
+            _table(runs) + _force_table(force),
+            (*(self._drift_statement(heading, runs) for heading in HEADINGS_DEG), force_statement(force)),
             ((picture.name, "Distance from where the ship would be, and mean force over H_s."),),
-            {"drift.csv": _csv(tracks), "mean_force.csv": _force_csv(force)},
+            {"drift.csv": _csv(runs), "mean_force.csv": _force_csv(force)},
             series={
                 f"{model}, {heading:g}°": case
                 for (kind, heading, model), case in self.free.items()
                 if kind == FREE
             },
-            # A ship that broaches without her yaw spring is what the run is for.
-            failures=tuple(
-                f"{', '.join(f'{part}' for part in key)}: {told}"
-                for key, told in {
-                    **failed,
-                    **{key: run.early_end for key, run in runs.items() if key[0] != NO_SPRINGS},
-                }.items()
-                if told
-            ),
+            failures=self._failures(store, runs),
         )
+
+    def _drift_statement(self, heading: float, runs: Mapping[Key, StoredRun]) -> Statement:
+        """The verdict for one heading, of the runs that finished."""
+        finished = {key: run.displacement[:, :2] for key, run in runs.items() if run.early_end is None}
+        keys = ((FREE, "nonlinear"), (FREE, "linear"), (SHIFTED, "linear"))
+        nonlinear, linear, shifted = (finished.get((kind, heading, model)) for kind, model in keys)
+        length, slow = self.base.ship.length, self._slowest(heading)
+        return drift_statement(heading, nonlinear, linear, shifted, length, slow=slow)
+
+    def _failures(self, store: RunStore, runs: Mapping[Key, StoredRun]) -> tuple[str, ...]:
+        """Runs that should have finished: to broach is what those without a yaw spring are for."""
+        found = {", ".join(map(str, key)): store.failure(case) for key, case in self.free.items()}
+        found |= {
+            ", ".join(map(str, key)): run.early_end for key, run in runs.items() if key[0] != NO_SPRINGS
+        }
+        for (height, model), case in self.held.items():
+            failure = store.failure(case)
+            found[f"{HELD}, {height:g} m, {model}"] = failure or store.load(case).early_end
+        return tuple(f"{name}: {told}" for name, told in found.items() if told is not None)
 
     def mean_force(self, store: RunStore) -> dict[float, FloatArray]:
         """Mean force (2,) [N] in surge and sway beyond the linear one, by significant height [m].
@@ -165,19 +161,6 @@ class Drift:
         slow = int(np.argmin(np.abs(met)))
         return float(waves.frequency[slow]), float(met[slow])
 
-    def _table(
-        self, tracks: dict[tuple[str, float, str], FloatArray], ends: dict[tuple[str, float, str], str | None]
-    ) -> str:
-        rows = []
-        for key, track in tracks.items():
-            kind, heading, model = key
-            outcome = ends.get(key) or "finished"
-            rows.append(
-                [kind, f"{heading:g}", model, f"{track[-1, 0]:+.0f}", f"{track[-1, 1]:+.0f}", outcome]
-            )
-        heads = ("", "wave heading [deg]", "model", "surge [m]", "sway [m]", "outcome")
-        return markdown_table(heads, rows, text_columns=1) + "\nSurge and sway at the end of the run.\n\n"
-
 
 def drift_statement(
     heading: float,
@@ -201,7 +184,8 @@ def drift_statement(
     if near > length and shifted is not None:
         other = float(np.linalg.norm(shifted[-1]))
         remark = (
-            f"The component of {slow[0]:.2g} rad/s is met at {slow[1]:.1g} rad/s: it stands still beside the ship"
+            f"The component of {slow[0]:.2g} rad/s is met at {slow[1]:.1g} rad/s: it stands still beside the"
+            f" ship"
             f" and pushes her on like a constant force, in first order. In components between those of the"
             f" report's grid the linear model goes {other:.0f} m."
         )
@@ -214,7 +198,7 @@ def drift_statement(
 
 
 def force_statement(force: dict[float, FloatArray]) -> Statement:
-    """The drift comes from non-zero mean forces of nonlinear terms, which are of second order in low waves."""
+    """The drift comes from mean forces of nonlinear terms, which are of second order in low waves."""
     heights = sorted(force)
     power = powers(force)
     holds = bool((power >= SECOND_ORDER[0]).all() and (power <= SECOND_ORDER[1]).all())
@@ -237,22 +221,34 @@ def powers(force: dict[float, FloatArray]) -> FloatArray:
     return np.asarray(np.log(np.abs(force[high]) / np.abs(force[low])) / np.log(high / low))
 
 
+def _table(runs: Mapping[Key, StoredRun]) -> str:
+    rows = []
+    for (kind, heading, model), run in runs.items():
+        surge, sway = run.displacement[-1, :2]
+        outcome = run.early_end or "finished"
+        rows.append([kind, f"{heading:g}", model, f"{surge:+.0f}", f"{sway:+.0f}", outcome])
+    heads = ("", "wave heading [deg]", "model", "surge [m]", "sway [m]", "outcome")
+    return markdown_table(heads, rows, text_columns=1) + "\nSurge and sway at the end of the run.\n\n"
+
+
 def _force_table(force: dict[float, FloatArray]) -> str:
     rows = [
         [f"{height:g}", *(f"{1e-3 * value:+.3g}" for value in values)] for height, values in force.items()
     ]
     heads = ("H_s [m]", "surge [kN]", "sway [kN]")
     return markdown_table(heads, rows, text_columns=0) + (
-        f"\nMean force beyond the linear one at {BOW_QUARTERING:g}°, T_p {PERIOD:g} s, held by the report's springs.\n"
+        f"\nMean force beyond the linear one at {BOW_QUARTERING:g}°, T_p {PERIOD:g} s, held by the report's"
+        f" springs.\n"
     )
 
 
-def _csv(tracks: dict[tuple[str, float, str], FloatArray]) -> str:
+def _csv(runs: Mapping[Key, StoredRun]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["run", "wave_heading [deg]", "model", "surge at the end [m]", "sway at the end [m]"])
-    for key, track in tracks.items():
-        writer.writerow([*key, *(f"{value:.6g}" for value in track[-1])])
+    heads = ("surge at the end [m]", "sway at the end [m]", "outcome")
+    writer.writerow(["run", "wave_heading [deg]", "model", *heads])
+    for key, run in runs.items():
+        writer.writerow([*key, *(f"{value:.6g}" for value in run.displacement[-1, :2]), run.outcome])
     return text.getvalue()
 
 

@@ -6,11 +6,13 @@ import numpy as np
 
 from panelsim.case import Case
 from panelsim.conventions import ComplexArray, Dof, FloatArray
-from panelsim.loads.hull_pressure import hull_pressure
+from panelsim.kernels.oracle import Surroundings
+from panelsim.kernels.section_loads import section_loads
+from panelsim.kernels.tables import panel_tables
+from panelsim.loads.wetted_surface import component_tables
 from panelsim.results.harmonics import harmonics
-from panelsim.seaway.dispersion import encounter_frequency
-from panelsim.seaway.regular import RegularSeaway
 from panelsim.studies.run_store import RunStore
+from panelsim.studies.tm2003_190.regular_runs import MEASURED, met_frequency
 
 SECTIONS = 20
 INSTANTS = 16  # a period: eight harmonics before they fold onto the first
@@ -39,53 +41,38 @@ class ExcessLoad:
         return float(abs(whole[0] - whole[1]) / abs(whole[1]))
 
 
-def excess_load(store: RunStore, case: Case, *, measured: float) -> ExcessLoad:
-    """Follow the pressure over a period of a stored run; its harmonics are those of its last seconds `measured`.
+def excess_load(store: RunStore, case: Case) -> ExcessLoad:
+    """Follow the pressure over a period of a stored run, with the harmonics that it has at its end.
 
     The linear part is that of the first harmonic of the motion with the wave, both a thousandth as large.
     """
-    run, wave = store.load(case), case.seaway.components
-    omega = float(
-        encounter_frequency(wave.frequency, wave.wave_heading, case.speed, case.ship.gravity)[0]
-    )
-    found = harmonics(run.time, run.displacement, omega, after=run.time[-1] - measured)
+    run, omega = store.load(case), met_frequency(case)
+    found = harmonics(run.time, run.displacement, omega, after=run.time[-1] - MEASURED)
     x = case.ship.vertices[:, 0]
     room = 1e-6 * np.ptp(x)
     stations = np.linspace(x.min() - room, x.max() + room, SECTIONS + 1)
-    time = 2.0 * np.pi / omega / INSTANTS * np.arange(INSTANTS)
+    time = np.linspace(0.0, 2.0 * np.pi / omega, INSTANTS, endpoint=False)
     turn = np.exp(1j * omega * time)
-    first = (turn[:, None] * found.complex_amplitude[0]).real
-    powers = turn[:, None] ** np.arange(1, len(found.complex_amplitude) + 1)
-    whole = found.mean + (powers @ found.complex_amplitude).real
-    loads = [
-        2.0 / INSTANTS * np.einsum("t,tsk->sk", turn.conj(), _loads(case, stations, time, motion, scale)) / scale
-        for motion, scale in ((whole, 1.0), (SMALL * first, SMALL))
-    ]
-    return ExcessLoad(stations, *loads)
+    first: FloatArray = np.asarray((turn[:, None] * found.complex_amplitude[0]).real)
+    turns = turn[:, None] ** np.arange(1, len(found.complex_amplitude) + 1)
+    whole = found.mean + np.asarray((turns @ found.complex_amplitude).real)
+    weights = 2.0 / INSTANTS * turn.conj()
+    load = np.einsum("t,tsk->sk", weights, _loads(case, stations, time, whole, 1.0))
+    linear = np.einsum("t,tsk->sk", weights, _loads(case, stations, time, SMALL * first, SMALL)) / SMALL
+    return ExcessLoad(stations, np.asarray(load), np.asarray(linear))
 
 
 def _loads(
     case: Case, stations: FloatArray, time: FloatArray, displacement: FloatArray, scale: float
 ) -> FloatArray:
     """Pressure loads (T, S, 6) of the sections in waves of `scale` times the height of the case."""
-    wave = case.seaway.components
-    sea = RegularSeaway(
-        scale * float(wave.amplitude[0]),
-        float(wave.frequency[0]),
-        float(wave.wave_heading[0]),
-        second_order=wave.second_order and scale == 1.0,
-    )
-    return np.array(
-        [
-            hull_pressure(
-                case.ship,
-                sea,
-                float(instant),
-                row,
-                speed=case.speed,
-                stretching=case.file.seaway.stretching,
-                method="oracle",
-            ).section_forces(stations)
-            for instant, row in zip(time, displacement, strict=True)
-        ]
-    )
+    ship = case.ship
+    panels = panel_tables(ship.vertices, ship.mesh.panels)
+    waves = component_tables(case.seaway.components, case.speed, ship.gravity)
+    weight = ship.water_density * ship.gravity
+    loads = []
+    for instant, motion in zip(time, displacement, strict=True):
+        pose = np.concatenate([[instant, scale], motion])
+        water = Surroundings(waves, pose, ship.waterline, weight, case.file.seaway.stretching)
+        loads.append(section_loads(water.wet_part_of(panels, case.file.run.pressure_rule), stations))
+    return np.array(loads)

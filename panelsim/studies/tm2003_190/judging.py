@@ -65,7 +65,7 @@ def within(study: RmsStudy, level: str, mask: Mask, most: float, name: str = "")
     if found is None:
         return Finding(False, f"{name}no motion that counts")
     holds = bool(abs(found.amount) <= most)
-    return Finding(holds, f"{name}{_told(found)}, {'≤' if holds else 'not ≤'} {100 * most:g} %")
+    return Finding(holds, f"{name}{told(found)}, {'≤' if holds else 'not ≤'} {100 * most:g} %")
 
 
 def beyond(study: RmsStudy, level: str, mask: Mask, least: float, name: str = "") -> Finding:
@@ -74,7 +74,7 @@ def beyond(study: RmsStudy, level: str, mask: Mask, least: float, name: str = ""
     if found is None:
         return Finding(False, f"{name}no motion that counts")
     holds = bool(abs(found.amount) > least)
-    return Finding(holds, f"{name}{_told(found)}, {'>' if holds else 'not >'} {100 * least:g} %")
+    return Finding(holds, f"{name}{told(found)}, {'>' if holds else 'not >'} {100 * least:g} %")
 
 
 def both(*halves: Finding) -> Finding:
@@ -116,8 +116,8 @@ def exceptions(study: RmsStudy, level: str, mask: Mask, threshold: float) -> str
                 span = (
                     f"{min(heights):g} m" if len(heights) == 1 else f"{min(heights):g} to {max(heights):g} m"
                 )
-                found.append(f"{name} at {heading:g}° ({span}, up to {size[here, mode].max():.0%})")
-    return f"beyond {threshold:.0%}: {', '.join(found)}" if found else ""
+                found.append(f"{name} at {heading:g}° ({span}, up to {100 * size[here, mode].max():.0f} %)")
+    return f"beyond {100 * threshold:g} %: {', '.join(found)}" if found else ""
 
 
 def _largest_seen(study: RmsStudy, row: int) -> float:
@@ -130,7 +130,10 @@ def _largest_seen(study: RmsStudy, row: int) -> float:
     return float(np.nanmax(np.concatenate(shares)))
 
 
-def _told(found: WorstDifference) -> str:
+def told(found: WorstDifference) -> str:
+    """The difference in per cent, with its mode and sea; or that a run did not finish."""
     if np.isnan(found.amount):
         return f"a run did not finish ({found.sea.label})"
-    return found.told
+    per_cent = 100.0 * found.amount
+    figure = f"{per_cent:+.0f}" if abs(per_cent) >= 100.0 else f"{per_cent:+.2g}"
+    return f"{figure} % in {found.mode} ({found.sea.label})"

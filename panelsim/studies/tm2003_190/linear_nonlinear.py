@@ -1,9 +1,11 @@
 """TM 2003-190 section 8.3: what nonlinear buoyancy and incident waves change; figures 14 to 17."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+
+import numpy as np
 
 from panelsim.case import Case
 from panelsim.conventions import Dof
@@ -28,6 +30,18 @@ from panelsim.studies.tm2003_190.judging import (
     of_modes,
     within,
 )
+from panelsim.studies.tm2003_190.load_parts import LoadParts
+from panelsim.studies.tm2003_190.model_causes import (
+    Frequencies,
+    Pair,
+    cause_in_words,
+    frequencies_markdown,
+    frequencies_of,
+    parts_markdown,
+    parts_path,
+    store_parts,
+    stored_parts,
+)
 from panelsim.studies.tm2003_190.rms_plan import Level, RmsPlan
 from panelsim.studies.tm2003_190.section import Section, Statement
 from panelsim.view.rms_pictures import rms_over_height
@@ -35,6 +49,20 @@ from panelsim.view.rms_pictures import rms_over_height
 LINEAR, NONLINEAR = "linear", "nonlinear"
 STEEPNESS = {"moderate": TYPICAL_STEEPNESS, "limiting": LIMITING_STEEPNESS}
 FIGURES = {"moderate": (14, 15), "limiting": (16, 17)}  # of the report, at 30° and at 150°
+TAKEN_APART_AT = 7.0  # m
+ABOUT_FREQUENCIES = (
+    "A linear ship moves at the frequencies at which she meets the waves. In bow quartering seas, first"
+    " realization: how much of the variance of the nonlinear motion is at others, and by how much its RMS at"
+    " those of the waves differs from the linear one."
+)
+ABOUT_PARTS = (
+    "The nonlinear pressure load of a run, less its linear part, is taken apart into what waves do to a ship"
+    " at rest, what her motions do in calm water, and products of both; the linear ship answers each. Shares"
+    " of these answers in the variance of the difference between the models (covariances, which may be below 0"
+    " where loads act against each other), and the RMS of what all of them miss."
+    " What moves the ship slowly is a load of second order of the incident waves alone: neither here nor in the"
+    " report have diffraction and radiation such a load, which would act too."
+)
 ROLL_FROM = 3.0  # m: the report excepts roll in bow quartering seas above it
 
 
@@ -59,7 +87,7 @@ class LinearNonlinear:
                 f"Linear against nonlinear, steepness {steepness:g}",
                 "model: 0 linear, 1 nonlinear",
                 levels,
-                1,
+                0,
                 study_seas(self.scope.heights, steepness),
                 self.scope.model_realizations,
             )
@@ -70,19 +98,50 @@ class LinearNonlinear:
     def cases(self) -> Sequence[Case]:
         return [case for plan in self.plans.values() for case in plan.cases]
 
+    def is_measured(self, store: RunStore) -> bool:
+        return all(parts_path(pair, store).is_file() for pair in self._taken_apart if pair.finished(store))
+
+    def measure(self, store: RunStore) -> None:
+        for pair in self._taken_apart:
+            if not parts_path(pair, store).is_file():
+                store_parts(pair, store)
+
+    def _pairs(self, name: str, wave_heading_deg: float) -> list[Pair]:
+        """The first realization of each sea from a heading, in both models."""
+        plan = self.plans[name]
+        return [
+            Pair(f"{STEEPNESS[name]:g}, {sea.label}", plan.case(0, index, 0), plan.case(1, index, 0))
+            for index, sea in enumerate(plan.seas)
+            if sea.wave_heading_deg == wave_heading_deg
+        ]
+
+    @property
+    def _taken_apart(self) -> list[Pair]:
+        """The seas in which the nonlinear load is taken apart: one of each kind, about 7 m high."""
+        near = int(np.argmin(np.abs(np.array(self.scope.heights) - TAKEN_APART_AT)))
+        return [
+            self._pairs("limiting", BOW_QUARTERING)[near],
+            self._pairs("moderate", BOW_QUARTERING)[near],
+            self._pairs("limiting", STERN_QUARTERING)[near],
+        ]
+
     def section(self, store: RunStore, folder: Path) -> Section:
         studies = {name: plan.read(store) for name, plan in self.plans.items()}
+        frequencies = {name: frequencies_of(self._pairs(name, BOW_QUARTERING), store) for name in studies}
+        parts = stored_parts(self._taken_apart, store)
+        why = {name: cause_in_words(found, parts) for name, found in frequencies.items()}
         return Section(
             self.key,
             "Linear against nonlinear (8.3)",
             "When do nonlinear buoyancy and incident waves change the motions?",
             "Linear and nonlinear runs in the same waves, medium mesh, 20 knots, step 0.2 s, at nominal"
-            f" steepness {TYPICAL_STEEPNESS:g} and {LIMITING_STEEPNESS:g}.",
-            "".join(
-                f"### Steepness {STEEPNESS[name]:g}\n\n{difference_markdown(study)}\n"
-                for name, study in studies.items()
+            f" steepness {TYPICAL_STEEPNESS:g} and {LIMITING_STEEPNESS:g}. Differences are those of the"
+            " nonlinear from the linear model.",
+            _body(studies, list(frequencies.values()), parts),
+            (
+                moderate_statement(studies["moderate"], why["moderate"]),
+                steep_statement(studies["limiting"], why["limiting"]),
             ),
-            (moderate_statement(studies["moderate"]), steep_statement(studies["limiting"])),
             tuple(
                 (
                     rms_over_height(study, heading, folder / f"models_{name}_{heading:g}.png").name,
@@ -103,34 +162,55 @@ class LinearNonlinear:
         )
 
 
-def moderate_statement(study: RmsStudy) -> Statement:
+def _body(
+    studies: Mapping[str, RmsStudy], frequencies: Sequence[Frequencies], parts: Mapping[str, LoadParts]
+) -> str:
+    """Differences, at which frequencies they are, and which loads make them."""
+    differences = "".join(
+        f"### Steepness {STEEPNESS[name]:g}\n\n{difference_markdown(study)}\n"
+        for name, study in studies.items()
+    )
+    return (
+        f"{differences}### At which frequencies\n\n{ABOUT_FREQUENCIES}\n\n"
+        + "\n".join(frequencies_markdown(found) for found in frequencies)
+        + f"\n### By which loads\n\n{ABOUT_PARTS}\n\n{parts_markdown(parts)}"
+    )
+
+
+def moderate_statement(study: RmsStudy, why: str) -> Statement:
     """Little influence, but for roll in bow quartering seas above 3 m."""
     roll = of_modes(study, Dof.ROLL, wave_heading_deg=BOW_QUARTERING, above=ROLL_FROM)
     found = both(
-        within(study, LINEAR, everywhere(study) & ~roll, SLIGHT, "the rest: "),
-        beyond(study, LINEAR, roll, SLIGHT, "roll in bow quartering seas: "),
+        within(study, NONLINEAR, everywhere(study) & ~roll, SLIGHT, "the rest: "),
+        beyond(study, NONLINEAR, roll, SLIGHT, "roll in bow quartering seas: "),
     )
     return Statement(
-        "In moderate steepness nonlinearities have little influence, but for roll in bow quartering seas above"
-        " 3 m (8.3)",
+        "In moderate steepness nonlinearities have little influence, but for roll in bow quartering seas"
+        " above 3 m (8.3)",
         found.holds,
         found.figure,
-        "" if found.holds else exceptions(study, LINEAR, everywhere(study) & ~roll, SLIGHT),
+        "" if found.holds else _because(exceptions(study, NONLINEAR, everywhere(study) & ~roll, SLIGHT), why),
     )
 
 
-def steep_statement(study: RmsStudy) -> Statement:
+def steep_statement(study: RmsStudy, why: str) -> Statement:
     """Little influence, but significant on roll and yaw in bow quartering seas."""
     roll, yaw = (of_modes(study, mode, wave_heading_deg=BOW_QUARTERING) for mode in (Dof.ROLL, Dof.YAW))
     found = both(
-        within(study, LINEAR, everywhere(study) & ~roll & ~yaw, SLIGHT, "the rest: "),
-        beyond(study, LINEAR, roll, SIGNIFICANT, "roll in bow quartering seas: "),
-        beyond(study, LINEAR, yaw, SIGNIFICANT, "yaw there: "),
+        within(study, NONLINEAR, everywhere(study) & ~roll & ~yaw, SLIGHT, "the rest: "),
+        beyond(study, NONLINEAR, roll, SIGNIFICANT, "roll in bow quartering seas: "),
+        beyond(study, NONLINEAR, yaw, SIGNIFICANT, "yaw there: "),
     )
     return Statement(
         "In steep seas nonlinearities have little influence, but a significant one on roll and yaw in bow"
         " quartering seas (8.3, 10)",
         found.holds,
         found.figure,
-        "" if found.holds else exceptions(study, LINEAR, everywhere(study) & ~roll & ~yaw, SLIGHT),
+        ""
+        if found.holds
+        else _because(exceptions(study, NONLINEAR, everywhere(study) & ~roll & ~yaw, SLIGHT), why),
     )
+
+
+def _because(what: str, why: str) -> str:
+    return "; ".join(part for part in (what, why) if part)

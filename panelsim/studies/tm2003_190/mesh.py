@@ -23,6 +23,7 @@ from panelsim.studies.tm2003_190.judging import (
     beyond,
     both,
     everywhere,
+    told,
     where_it_counts,
     within,
     worst,
@@ -137,4 +138,4 @@ def _one_figure(study: RmsStudy, finding: Finding) -> str:
     found = worst(study, COARSE, everywhere(study))
     if found is None or found.amount != found.amount:
         return finding.figure
-    return f"{found.told}, {'' if finding.holds else 'not '}in {100 * IDENTICAL:g} to {100 * SLIGHT:g} %"
+    return f"{told(found)}, {'' if finding.holds else 'not '}in {100 * IDENTICAL:g} to {100 * SLIGHT:g} %"

@@ -1,4 +1,4 @@
-"""The page of a reproduction: what the report says, whether it holds, and each study behind it, in Markdown."""
+"""The page of a reproduction in Markdown: what the report says, whether it holds, each study behind it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,16 +9,20 @@ from panelsim.studies.tm2003_190.section import Section, Statement
 
 TITLE = "TM 2003-190 reproduced"
 _INTRODUCTION = (
-    "DRDC Atlantic TM 2003-190 (K.A. McTaggart, 2003) ends with numerical studies of HALIFAX in waves: how long"
-    " a time step may be, how fine a mesh, when loads may be linear, what a run costs, and what waves of second"
-    " order change. Here they are made again on a HALIFAX-like ship, a public frigate form scaled to the"
-    " report's main particulars, and each of the report's sentences is judged."
+    "DRDC Atlantic TM 2003-190 (K.A. McTaggart, 2003) ends with numerical studies of HALIFAX in waves: how"
+    " long a time step may be, how fine a mesh, when loads may be linear, what a run costs, and what waves of"
+    " second order change. Here they are made again on a HALIFAX-like ship, a public frigate form scaled to"
+    " the report's main particulars, and each of the report's sentences is judged."
+)
+_IDENTICAL, _SLIGHT, _NOTICEABLE, _SIGNIFICANT, _MINOR = (
+    f"{100 * share:g} %" for share in (IDENTICAL, SLIGHT, NOTICEABLE, SIGNIFICANT, MINOR)
 )
 _THRESHOLDS = (
-    f"The words mean a difference of the RMS of a motion: *practically* or *effectively identical* ≤ {IDENTICAL:.0%},"
-    f" *slightly different* {IDENTICAL:.0%} to {SLIGHT:.0%}, *little influence* ≤ {SLIGHT:.0%}, *noticeable*"
-    f" > {NOTICEABLE:.0%}, *significant* > {SIGNIFICANT:.0%}. Motions under {MINOR:.0%} of the largest rotation or"
-    " translation of the same run are left out. One motion in one sea is enough to break a sentence."
+    "The words mean a difference of the RMS of a motion: *practically* or *effectively identical* ≤"
+    f" {_IDENTICAL}, *slightly different* {_IDENTICAL} to {_SLIGHT}, *little influence* ≤ {_SLIGHT},"
+    f" *noticeable* > {_NOTICEABLE}, *significant* > {_SIGNIFICANT}. Motions under {_MINOR} of the largest"
+    " rotation or translation of the same run are left out. One motion in one sea is enough to break a"
+    " sentence."
 )
 
 
@@ -56,11 +60,15 @@ def verdict(statement: Statement) -> str:
 
 def _verdicts(sections: Sequence[Section]) -> str:
     rows = [
-        f"| {statement.says} | **{verdict(statement)}** | {statement.figures} | [{section.title}](#{anchor(section.title)}) |\n"
+        f"| {statement.says} | **{verdict(statement)}** | {statement.figures} | {_link(section)} |\n"
         for section in sections
         for statement in section.statements
     ]
     return "| the report says | here | figure | section |\n| --- | --- | --- | --- |\n" + "".join(rows)
+
+
+def _link(section: Section) -> str:
+    return f"[{section.title}](#{anchor(section.title)})"
 
 
 def _making(making: Making) -> str:
@@ -68,8 +76,8 @@ def _making(making: Making) -> str:
         f"`panelsim reproduce tm2003-190{' --quick' if making.extent == 'quick' else ''}`, panelsim"
         f" {making.version}, {making.runs} runs. {making.seeds} What is written here comes from stored runs"
         " alone; `--from-runs` makes the page again.\n\n"
-        f"Time: {_time(making.cpu_seconds)} of CPU in the runs, {_time(making.wall_seconds)} for the command, on"
-        f" {making.machine}.\n"
+        f"Time: {_time(making.cpu_seconds)} of CPU in the runs, {_time(making.wall_seconds)} for the command,"
+        f" on {making.machine}.\n"
     )
 
 
@@ -84,9 +92,7 @@ def _section(section: Section) -> str:
     ]
     if section.failures:
         count = len(section.failures)
-        lines.append(
-            f"{count} run{'s' if count > 1 else ''} of this study failed; they are listed at the end.\n"
-        )
+        lines.append(f"{count} run{'s' if count > 1 else ''} of this study failed; see the end.\n")
     files = [f"[{name}](tables/{name})" for name in section.tables]
     if section.rms:
         files.append(f"[recording](recordings/{section.key}.rrd)")
@@ -97,7 +103,7 @@ def _section(section: Section) -> str:
 
 def _told(statement: Statement) -> str:
     remark = f" {statement.remark[0].upper()}{statement.remark[1:]}." if statement.remark else ""
-    return f"- {statement.says}: **{verdict(statement)}**. {statement.figures}.{remark}\n"
+    return f"- {statement.says}: **{verdict(statement)}**: {statement.figures}.{remark}\n"
 
 
 def anchor(title: str) -> str:

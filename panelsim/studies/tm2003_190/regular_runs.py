@@ -13,7 +13,7 @@ from panelsim.response.response import response
 from panelsim.results.harmonics import Harmonics, harmonics
 from panelsim.results.rms_study import MINOR
 from panelsim.seaway.dispersion import encounter_frequency
-from panelsim.studies.run_store import RunStore
+from panelsim.studies.run_store import RunStore, StoredRun
 
 MODES = (Dof.HEAVE, Dof.PITCH)
 MODE_NAMES = ("heave", "pitch")
@@ -81,11 +81,12 @@ class RegularRuns:
         mean, second, unsettled = np.full((3, *shape), np.nan)
         failures = []
         for index, case in self.by_index.items():
-            failure = store.failure(case) or store.load(case).early_end
-            if failure is not None:
-                failures.append(f"{self.told(index)}: {failure}")
+            failure = store.failure(case)
+            run = store.load(case) if failure is None else None
+            if run is None or run.early_end is not None:
+                failures.append(f"{self.told(index)}: {failure if run is None else run.early_end}")
                 continue
-            found, scale = harmonics_of(store, case), _scale(case)
+            found, scale = _harmonics(run, case), _scale(case)
             transfer[index] = found.complex_amplitude[0] / scale
             mean[index], second[index] = found.mean / scale, found.amplitude[1] / scale
             unsettled[index] = found.unsettled
@@ -116,13 +117,17 @@ class RegularRuns:
         return found
 
 
-def harmonics_of(store: RunStore, case: Case) -> Harmonics:
-    """Mean and harmonics of heave and pitch of a stored run, from the last of two windows."""
-    run, waves = store.load(case), case.seaway.components
-    omega = encounter_frequency(waves.frequency, waves.wave_heading, case.speed, case.ship.gravity)
-    return harmonics(
-        run.time, run.displacement[:, list(MODES)], float(omega[0]), after=run.time[-1] - MEASURED
-    )
+def _harmonics(run: StoredRun, case: Case) -> Harmonics:
+    """Mean and harmonics of heave and pitch, from the last of two windows."""
+    signals = run.displacement[:, list(MODES)]
+    return harmonics(run.time, signals, met_frequency(case), after=run.time[-1] - MEASURED)
+
+
+def met_frequency(case: Case) -> float:
+    """Signed frequency of encounter [rad/s] of the wave of a case."""
+    waves = case.seaway.components
+    met = encounter_frequency(waves.frequency, waves.wave_heading, case.speed, case.ship.gravity)
+    return float(met[0])
 
 
 def relative_difference(
@@ -130,7 +135,8 @@ def relative_difference(
 ) -> FloatArray:
     """Amplitude (F, R, …, 2) over that of a reference, less 1; NaN where the linear one (F, R, 2) is minor.
 
-    The reference is one for each, or (F, R, 2) for all. Minor is what has less than 5 % of its peak over λ/L: beside a cancellation a difference says nothing.
+    The reference is one for each, or (F, R, 2) for all. Minor is what has less than 5 % of its peak over λ/L:
+    beside a cancellation a difference says nothing.
     """
     size = np.abs(linear)
     minor = size < MINOR * np.nanmax(size, axis=1, keepdims=True)

@@ -13,6 +13,7 @@ from panelsim.case import Case
 from panelsim.conventions import ComplexArray, Dof, FloatArray
 from panelsim.results.rms_tables import markdown_table
 from panelsim.results.verdicts import IDENTICAL, SLIGHT
+from panelsim.ship.ship import Ship
 from panelsim.studies.run_store import RunStore
 from panelsim.studies.tm2003_190.excess_load import ExcessLoad, excess_load
 from panelsim.studies.tm2003_190.regular_runs import (
@@ -81,7 +82,8 @@ class RegularWaves:
             self.key,
             "Regular waves (9)",
             "Do second-order waves matter for heave and pitch, and how near are time and frequency domain?",
-            "Head seas at Fn 0.12 and 0.20; nonlinear runs with Wheeler stretching in sinusoidal and in Stokes"
+            "Head seas at Fn 0.12 and 0.20; nonlinear runs with Wheeler stretching in sinusoidal and in"
+            " Stokes"
             f" waves, step {TIME_STEP:g} s; first harmonics of the last {0.5 * MEASURED:g} s, after a ramp of"
             f" {RAMP:g} s and {TRANSIENT + 0.5 * MEASURED:g} s more. Between the last two windows mean and"
             f" harmonics change by {unsettled:.1g} of the first harmonic at most. The report's axes are not"
@@ -117,7 +119,7 @@ class RegularWaves:
         at = worst(relative_difference(found.transfer[:, :, shown], linear, linear))
         if statement.holds or at is None:
             return statement
-        excess = excess_load(store, runs.by_index[at[0], at[1], shown], measured=MEASURED)
+        excess = excess_load(store, runs.by_index[at[0], at[1], shown])
         return replace(statement, remark=f"{statement.remark} {cause(excess, runs, found, linear, at)}")
 
     def _picture(
@@ -125,7 +127,7 @@ class RegularWaves:
     ) -> tuple[str, str]:
         runs = self.runs[SINUSOIDAL]
         lines = {"frequency domain": np.abs(linear[f])}
-        points = {}
+        points: dict[str, FloatArray] = {}
         for name, of in self.runs.items():
             amplitude = np.abs(measured[name].transfer[f])
             for h, steepness in enumerate(of.steepness):
@@ -147,9 +149,7 @@ class RegularWaves:
             rows.append(["sinusoidal against frequency domain", _steep(steepness), *_largest(against)])
         sinusoidal = self._common(measured[SINUSOIDAL].transfer)
         for h, steepness in enumerate(self.runs[STOKES].steepness):
-            against = relative_difference(
-                measured[STOKES].transfer[:, :, h], sinusoidal[:, :, h], linear
-            )
+            against = relative_difference(measured[STOKES].transfer[:, :, h], sinusoidal[:, :, h], linear)
             rows.append(["Stokes against sinusoidal", _steep(steepness), *_largest(against)])
         for name, found in measured.items():
             second = found.second[:, :, self.runs[name].steepness.index(SHOWN)]
@@ -195,7 +195,8 @@ def domains_statement(runs: RegularRuns, transfer: ComplexArray, linear: Complex
     return Statement(
         says,
         holds,
-        f"{100 * value:+.2g} % in {MODE_NAMES[at[-1]]} ({runs.told(at[:-1])}, H/λ 1/20), {'' if holds else 'not '}≤"
+        f"{100 * value:+.2g} % in {MODE_NAMES[at[-1]]} ({runs.told(at[:-1])}, H/λ 1/20),"
+        f" {'' if holds else 'not '}≤"
         f" {100 * SLIGHT:g} %; of the peak {100 * of_peak[peak]:+.2g} % in {MODE_NAMES[peak[-1]]}"
         f" ({runs.told(peak[:-1])})",
         f"Within {100 * SLIGHT:g} % from λ/L {near[0]:g} on." if far and near else "",
@@ -211,12 +212,13 @@ def cause(
     place = int(np.argmax(share))
     middle = 0.5 * float(excess.stations[place] + excess.stations[place + 1])
     told = (
-        f"There the pressure {'moment' if mode is Dof.PITCH else 'force'} is {100 * excess.size(mode):.2g} % off its"
+        f"There the pressure {'moment' if mode is Dof.PITCH else 'force'} is {100 * excess.size(mode):.2g} %"
+        f" off its"
         f" linear part, and {100 * share[place]:.0f} % of that comes from the twentieth of the length about"
         f" x = {middle:.0f} m"
     )
     if place == 0:
-        told += ", the wide transom, which calm water only just wets"
+        told += f", the transom, which calm water wets by {transom_immersion(runs.base.ship):.2f} m"
     power = growth(runs, found.transfer[at[0], at[1], :, at[-1]] - linear[at[0], at[1], at[-1]])
     if np.isfinite(power):
         told += (
@@ -224,6 +226,12 @@ def cause(
             f" departs as the {power:.1f}th power of the height: a smooth hull would give the second"
         )
     return told + "."
+
+
+def transom_immersion(ship: Ship) -> float:
+    """Depth [m] of the aftermost points of the hull below calm water."""
+    x, z = ship.vertices[:, 0], ship.vertices[:, 2]
+    return float(ship.waterline - z[x < x.min() + 1e-3 * ship.length].min())
 
 
 def growth(runs: RegularRuns, departure: ComplexArray) -> float:
@@ -240,14 +248,16 @@ def _not_identical(runs: RegularRuns, difference: FloatArray) -> str:
     if size.max() <= IDENTICAL:
         return f"≤ {100 * IDENTICAL:g} % as well."
     told = ", ".join(
-        f"{100 * value:.2g} % at H/λ {_steep(steep)}" for value, steep in zip(size, runs.steepness, strict=True)
+        f"{100 * value:.2g} % at H/λ {_steep(steep)}"
+        for value, steep in zip(size, runs.steepness, strict=True)
     )
     return f"Not ≤ {100 * IDENTICAL:g} %: {told}."
 
 
 def _not_periodic(runs: dict[str, RegularRuns], measured: dict[str, Measured]) -> list[str]:
     return [
-        f"{name}: {runs[name].told(tuple(int(i) for i in index[:-1]))}: {MODE_NAMES[index[-1]]} is not periodic"
+        f"{name}: {runs[name].told(tuple(int(i) for i in index[:-1]))}: {MODE_NAMES[index[-1]]} is not"
+        f" periodic"
         f" yet, its harmonics change by {100 * found.unsettled[tuple(index)]:.2g} %"
         for name, found in measured.items()
         for index in np.argwhere(found.unsettled > SETTLED)
@@ -261,9 +271,7 @@ def _steep(steepness: float) -> str:
 def _largest(values: FloatArray) -> list[str]:
     """Of heave and of pitch the value of the largest size, in per cent."""
     found = (worst(values[..., mode]) for mode in range(2))
-    return [
-        "–" if at is None else f"{100 * values[(*at, mode)]:+.2g}" for mode, at in enumerate(found)
-    ]
+    return ["–" if at is None else f"{100 * values[(*at, mode)]:+.2g}" for mode, at in enumerate(found)]
 
 
 def _csv(runs: dict[str, RegularRuns], measured: dict[str, Measured], linear: ComplexArray) -> str:

@@ -11,19 +11,38 @@ from panelsim.case import Case
 from panelsim.errors import PanelsimError
 from panelsim.files import replacing, write_whole
 from panelsim.studies.computing import compute_runs
-from panelsim.studies.run_store import RunStore, run_key
+from panelsim.studies.run_store import RunStore, StoredRun, run_key
 from panelsim.studies.tm2003_190.common import FULL, QUICK, Scope, base_case
+from panelsim.studies.tm2003_190.cost import Cost
+from panelsim.studies.tm2003_190.drift import Drift
+from panelsim.studies.tm2003_190.kernel_speed import KernelSpeed
 from panelsim.studies.tm2003_190.linear_nonlinear import LinearNonlinear
 from panelsim.studies.tm2003_190.mesh import Mesh
 from panelsim.studies.tm2003_190.page import Making, page
+from panelsim.studies.tm2003_190.regular_waves import RegularWaves
 from panelsim.studies.tm2003_190.runs_folder import open_runs_folder, timed
 from panelsim.studies.tm2003_190.section import MeasuringStudy, Section, Study
+from panelsim.studies.tm2003_190.statistics import SamplingStatistics
+from panelsim.studies.tm2003_190.stretching import Stretching
 from panelsim.studies.tm2003_190.time_step import TimeStep
 from panelsim.view.study_recording import record_study
 
 NAME = "tm2003-190"
 FOLDERS = ("pictures", "tables", "recordings")
 Progress = Callable[[str, float, float], None]  # key of the study, done, in all
+
+
+class CountingStore(RunStore):
+    """Runs on disk, with the CPU seconds of those that have been read: reading all of them takes a while."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(folder)
+        self.cpu_seconds: dict[str, float] = {}
+
+    def load(self, case: Case) -> StoredRun:
+        run = super().load(case)
+        self.cpu_seconds[run_key(case)] = float(run.attrs["cpu_seconds"])
+        return run
 
 
 @dataclass(frozen=True)
@@ -106,18 +125,19 @@ class Reproduction:
         note = open_runs_folder(self.runs, NAME, self.extent)
         folder.parent.mkdir(parents=True, exist_ok=True)
         with TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as beside:
-            sections = []
+            sections, store = [], CountingStore(self.runs)
             for done, study in enumerate(self.studies):
                 if progress is not None:
                     progress(f"page: {study.key}", done, len(self.studies))
-                sections.append(self._write_section(study, Path(beside)))
+                sections.append(_write_section(study, store, Path(beside)))
             making = Making(
                 version("panelsim"),
                 note.machine,
                 self.extent,
                 _seeds(self.scope),
-                *self._cost(),
-                wall_seconds=note.wall_seconds,
+                len({run_key(case) for study in self.studies for case in study.cases}),
+                sum(store.cpu_seconds.values()),
+                note.wall_seconds,
             )
             write_whole(Path(beside) / "README.md", page(sections, making).encode())
             _replace(folder, Path(beside))
@@ -125,37 +145,41 @@ class Reproduction:
             progress("page", 1, 1)
         return tuple(sections)
 
-    def _write_section(self, study: Study, folder: Path) -> Section:
-        pictures, tables, recordings = (folder / name for name in FOLDERS)
-        pictures.mkdir(exist_ok=True)
-        section = study.section(self.store, pictures)
-        for name, text in section.tables.items():
-            write_whole(tables / name, text.encode())
-        if section.rms:
-            finished = {
-                name: case for name, case in section.series.items() if self.store.failure(case) is None
-            }
-            record_study(
-                recordings / f"{section.key}.rrd",
-                section.rms,
-                title=section.title,
-                text=f"# {section.title}\n\n{section.setup}\n\n{section.body}",
-                series={name: self.store.load(case) for name, case in finished.items()},
-            )
-        return section
-
-    def _cost(self) -> tuple[int, float]:
-        """Runs, and CPU seconds of those that are stored."""
-        cases = {run_key(case): case for study in self.studies for case in study.cases}
-        stored = [case for case in cases.values() if self.store.failure(case) is None]
-        return len(cases), float(sum(self.store.load(case).attrs["cpu_seconds"] for case in stored))
-
 
 def reproduction(*, quick: bool, runs: Path) -> Reproduction:
     """All studies of the report, or a reduced set of them, over a folder of runs."""
     scope, base = QUICK if quick else FULL, base_case()
-    studies: list[Study] = [TimeStep(base, scope), Mesh(base, scope), LinearNonlinear(base, scope)]
+    studies: list[Study] = [
+        TimeStep(base, scope),
+        Mesh(base, scope),
+        LinearNonlinear(base, scope),
+        Cost(base, *((120.0, 3) if quick else (600.0, 5))),
+        RegularWaves(base, quick),
+        Stretching(base, quick),
+        Drift(base, quick),
+        KernelSpeed(base, quick),
+        SamplingStatistics(base, quick),
+    ]
     return Reproduction(studies, scope, "quick" if quick else "full", runs)
+
+
+def _write_section(study: Study, store: RunStore, folder: Path) -> Section:
+    """The section of a study, its pictures, tables and recording written into the folder."""
+    pictures, tables, recordings = (folder / name for name in FOLDERS)
+    pictures.mkdir(exist_ok=True)
+    section = study.section(store, pictures)
+    for name, text in section.tables.items():
+        write_whole(tables / name, text.encode())
+    if section.rms:
+        known = {name: case for name, case in section.series.items() if store.failure(case) is None}
+        record_study(
+            recordings / f"{section.key}.rrd",
+            section.rms,
+            title=section.title,
+            text=f"# {section.title}\n\n{section.setup}\n\n{section.body}",
+            series={name: store.load(case) for name, case in known.items()},
+        )
+    return section
 
 
 def _named(keys: Sequence[str], progress: Progress) -> Callable[[float, float], None]:
@@ -170,10 +194,10 @@ def _named(keys: Sequence[str], progress: Progress) -> Callable[[float, float], 
 def _seeds(scope: Scope) -> str:
     heights = ", ".join(f"{height:g}" for height in scope.heights)
     return (
-        f"Significant heights {heights} m, {scope.duration:g} s after a ramp of 60 s, {scope.realizations}"
-        f" realizations of each sea ({scope.model_realizations} for linear against nonlinear): the seed is 1000"
-        " times the height in metres plus the number of the realization, the same in all studies, so that"
-        " differences are none of sampling."
+        f"Significant heights {heights} m, {scope.duration:g} s after a ramp of 60 s, realizations of each"
+        f" sea: {scope.realizations}, for linear against nonlinear {scope.model_realizations}; the seed is"
+        " 1000 times the height in metres plus the number of the realization, the same in all studies, so"
+        " that differences are none of sampling."
     )
 
 

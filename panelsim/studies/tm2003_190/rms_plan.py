@@ -16,7 +16,7 @@ from panelsim.studies.tm2003_190.common import in_sea
 
 @dataclass(frozen=True)
 class Level:
-    """A level of a study: its name, what it amounts to in the unit of the study, and the keys that make it."""
+    """A level of a study: its name, what it amounts to in the study's unit, the keys that make it."""
 
     name: str
     value: float
@@ -25,7 +25,7 @@ class Level:
 
 @dataclass(frozen=True)
 class RmsPlan:
-    """Levels in seas, a number of realizations each; `reference` is the index of the level to compare with."""
+    """Levels in seas, a number of realizations each; `reference` is the index of the level compared with."""
 
     base: Case
     title: str

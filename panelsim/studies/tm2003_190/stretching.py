@@ -18,7 +18,6 @@ from panelsim.studies.run_store import RunStore
 from panelsim.studies.tm2003_190.common import BOW_QUARTERING, FULL, QUICK
 from panelsim.studies.tm2003_190.excess_load import excess_load
 from panelsim.studies.tm2003_190.regular_runs import (
-    MEASURED,
     MODE_NAMES,
     MODES,
     Measured,
@@ -99,7 +98,8 @@ class Stretching:
             self.key,
             "Wheeler stretching (9)",
             "Is it Wheeler stretching that brings the time domain near to the frequency domain?",
-            "Nonlinear runs in sinusoidal head seas at Fn 0.12 and 0.20, with Wheeler stretching, exp(k(z - ζ)), and"
+            "Nonlinear runs in sinusoidal head seas at Fn 0.12 and 0.20, with Wheeler stretching, exp(k(z -"
+            " ζ)), and"
             " without, exp(k min(z, 0)), step 0.1 s; and a random sea,"
             f" {SEA.label}, at 20 knots beside a linear run in the same waves. The earlier report's"
             " kinematics above calm water are not told in this one: what it compared with may not be our"
@@ -119,9 +119,7 @@ class Stretching:
             ),
         )
 
-    def _statement(
-        self, store: RunStore, measured: dict[str, Measured], linear: ComplexArray
-    ) -> Statement:
+    def _statement(self, store: RunStore, measured: dict[str, Measured], linear: ComplexArray) -> Statement:
         """The verdict, and where the load is not linear, with and without stretching."""
         found = statement(measured[WHEELER], measured[NONE], linear)
         at = worst(relative_difference(measured[WHEELER].transfer, linear, linear))
@@ -129,15 +127,20 @@ class Stretching:
             return found
         mode, shares = MODES[at[-1]], []
         for name, runs in self.runs.items():
-            excess = excess_load(store, runs.by_index[at[0], at[1], at[2]], measured=MEASURED)
+            excess = excess_load(store, runs.by_index[at[0], at[1], at[2]])
             share = excess.share(mode)
             most = int(np.argmax(share))
             shares.append(
-                f"{name}: {100 * excess.size(mode):.2g} % off its linear part, {100 * share[most]:.0f} % of it about"
+                f"{name}: {100 * excess.size(mode):.2g} % off its linear part, {100 * share[most]:.0f} % of"
+                f" it about"
                 f" x = {excess.stations[most : most + 2].mean():.0f} m"
             )
-        cause = f"At the worst ({self.runs[WHEELER].told(at[:-1])}) the pressure is, {'; '.join(shares)}: it is the"
-        return replace(found, remark=f"{found.remark} {cause} shape of the hull there, whatever the stretching.")
+        cause = (
+            f"At the worst ({self.runs[WHEELER].told(at[:-1])}) the pressure is, {'; '.join(shares)}: the"
+            f" difference"
+            " is of the hull there, whatever the stretching."
+        )
+        return replace(found, remark=f"{found.remark} {cause}")
 
     def _picture(
         self, folder: Path, f: int, measured: dict[str, Measured], linear: ComplexArray
@@ -158,14 +161,16 @@ class Stretching:
 def statement(wheeler: Measured, none: Measured, linear: ComplexArray) -> Statement:
     """Wheeler's stretching made the earlier difference vanish: ≤ 5 % with it, and more than that without."""
     size = {
-        name: np.nan_to_num(np.abs(relative_difference(found.transfer, linear, linear)), nan=0.0).max(axis=(0, 1))
+        name: np.nan_to_num(np.abs(relative_difference(found.transfer, linear, linear)), nan=0.0).max(
+            axis=(0, 1)
+        )
         for name, found in ((WHEELER, wheeler), (NONE, none))
     }
     failed = bool(np.isnan(wheeler.transfer).any() or np.isnan(none.transfer).any())
     holds = not failed and float(size[WHEELER].max()) <= SLIGHT < float(size[NONE].max())
     figures = "; ".join(
-        f"{name}: {', '.join(f'{mode} {100 * most:.2g} %' for mode, most in zip(MODE_NAMES, of.max(axis=0), strict=True))}"
-        for name, of in size.items()
+        f"{name}: heave {100 * heave:.2g} %, pitch {100 * pitch:.2g} %"
+        for name, (heave, pitch) in ((name, of.max(axis=0)) for name, of in size.items())
     )
     mean = {
         name: f"{100 * np.nanmax(np.abs(found.mean[..., 0])):.2g} %"
@@ -176,7 +181,8 @@ def statement(wheeler: Measured, none: Measured, linear: ComplexArray) -> Statem
         holds,
         f"largest difference of the first harmonic, {figures}; Wheeler ≤ {100 * SLIGHT:g} % and none above it"
         " would hold",
-        f"What stretching changes above all is the mean heave: at most {mean[WHEELER]} of the wave amplitude with"
+        f"What stretching changes above all is the mean heave: at most {mean[WHEELER]} of the wave amplitude"
+        f" with"
         f" it, {mean[NONE]} without.",
     )
 
@@ -193,7 +199,9 @@ def _table(runs: dict[str, RegularRuns], measured: dict[str, Measured], linear: 
                 told = [name, f"{froude:g}", f"1/{1 / steepness:.0f}"]
                 rows.append([*told, *shown, f"{mean:+.2g}"])
     heads = ("", "Fn", "H/λ", "heave [%]", "pitch [%]", "mean heave [% of a]")
-    note = "\nAmplitudes against the frequency domain, root mean square over λ/L; mean heave, mean over λ/L.\n"
+    note = (
+        "\nAmplitudes against the frequency domain, root mean square over λ/L; mean heave, mean over λ/L.\n"
+    )
     return markdown_table(heads, rows, text_columns=1) + note
 
 

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+import numpy as np
+
 from panelsim.case import Case
 from panelsim.results.rms_study import RmsStudy
 from panelsim.results.rms_tables import difference_markdown, rms_csv
@@ -23,6 +25,7 @@ from panelsim.studies.tm2003_190.judging import (
     beyond,
     everywhere,
     from_heading,
+    told,
     where_it_counts,
     within,
     worst,
@@ -33,6 +36,7 @@ from panelsim.view.rms_pictures import rms_over_height
 
 STEPPERS = ("exponential", "ab3", "rk4")
 STEPS = (0.5, 0.2, 0.1)  # s
+LEAST_ERROR = 1e-3  # below it a difference of RMS says little of the order
 REFERENCE_STEP = 0.05  # s, by rk4, whose error is some thousandth of that of any other level
 
 
@@ -84,8 +88,8 @@ class TimeStep:
             self.key,
             "Time step (8.1)",
             "How long may a time step be?",
-            f"Nonlinear runs on the medium mesh at 20 knots, nominal steepness {LIMITING_STEEPNESS:g}, steps of"
-            f" 0.1, 0.2 and 0.5 s with each scheme; the reference is rk4 at {REFERENCE_STEP:g} s.",
+            f"Nonlinear runs on the medium mesh at 20 knots, nominal steepness {LIMITING_STEEPNESS:g}, steps"
+            f" of 0.1, 0.2 and 0.5 s with each scheme; the reference is rk4 at {REFERENCE_STEP:g} s.",
             "".join(f"### {stepper}\n\n{difference_markdown(study)}\n" for stepper, study in studies.items()),
             tuple(one for stepper, study in studies.items() for one in statements(stepper, study)),
             tuple(pictures),
@@ -112,12 +116,29 @@ def statements(stepper: str, study: RmsStudy) -> tuple[Statement, Statement]:
             f"{stepper}: 0.1 and 0.2 s give practically identical results (8.1)",
             alike.holds,
             alike.figure,
-            "" if alike.holds else where_it_counts(near, fifth, IDENTICAL),
+            ""
+            if alike.holds
+            else "; ".join(
+                part for part in (where_it_counts(near, fifth, IDENTICAL), order(study, fifth, tenth)) if part
+            ),
         ),
         Statement(
             f"{stepper}: 0.5 s gives noticeable differences in bow quartering seas (8.1)",
             apart.holds,
-            apart.figure + ("" if stern is None else f"; in stern quartering seas {stern.told}"),
+            apart.figure + ("" if stern is None else f"; in stern quartering seas {told(stern)}"),
             where_it_counts(study, half, NOTICEABLE),
         ),
+    )
+
+
+def order(study: RmsStudy, longer: str, shorter: str) -> str:
+    """By what the error falls from one step to the half of it: 8 for a scheme of third order."""
+    errors = [np.abs(study.difference[study.levels.index(level)]) for level in (longer, shorter)]
+    large = (errors[0] > LEAST_ERROR) & (errors[1] > 0.0)
+    if not large.any():
+        return ""
+    factor = float(np.median(errors[0][large] / errors[1][large]))
+    return (
+        f"the error falls by a factor of {factor:.1f} (median) from {longer} to {shorter}, 8 being that"
+        " of third order"
     )

@@ -1,0 +1,173 @@
+"""TM 2003-190 section 8.4: CPU time over simulated time, Table 4, and how it grows."""
+
+import csv
+import io
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from panelsim.case import Case
+from panelsim.results.rms_tables import markdown_table
+from panelsim.studies.cost import CostRow, cost_rows, growth, measure_costs
+from panelsim.studies.run_store import RunStore
+from panelsim.studies.timing_store import TimingStore
+from panelsim.studies.tm2003_190.common import BOW_QUARTERING
+from panelsim.studies.tm2003_190.mesh import PANEL_AREAS
+from panelsim.studies.tm2003_190.section import Section, Statement
+
+# Table 4: CPU over simulated time by components, on a Pentium III of 800 MHz.
+TABLE_4 = {
+    "linear": {19: 0.019, 37: 0.027, 160: 0.084},
+    "nonlinear": {19: 0.254, 37: 0.435, 160: 1.636},
+}
+LESS = 250.0  # times less CPU than the report is what nonlinear runs have to take
+SEED = 1001
+# cos² over ±90°, in steps of 20°. Of 19 frequencies and 9 directions the rule of the report, a millionth of
+# the energy, leaves 162 here, two of which have 3.2 millionths.
+SPREADING = {
+    "seaway.spreading": {"kind": "cosine-squared", "spreading_angle_deg": 90.0},
+    "seaway.direction_step_deg": 20.0,
+    "seaway.drop_below": 3.5e-6,
+}
+SEAS: Mapping[int, Mapping[str, object]] = {
+    19: {},
+    37: {"seaway.frequencies.step": 0.05},
+    160: SPREADING,
+}
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Runs of Table 4 timed one at a time, alone; each `seconds` long, `rounds` times."""
+
+    base: Case
+    seconds: float
+    rounds: int
+    key: str = "cost"
+
+    @property
+    def cases(self) -> Sequence[Case]:
+        return ()
+
+    @cached_property
+    def of_table(self) -> dict[str, Case]:
+        """The six runs of Table 4, in sea state 7."""
+        return {
+            f"{components}, {model}": self._case(model, changes)
+            for components, changes in SEAS.items()
+            for model in TABLE_4
+        }
+
+    @cached_property
+    def of_meshes(self) -> dict[str, Case]:
+        """Nonlinear runs on the three meshes, 19 components."""
+        return {f"{area:g} m²": self._case("nonlinear", {"ship.panel_area": area}) for area in PANEL_AREAS}
+
+    def _case(self, model: str, changes: Mapping[str, object]) -> Case:
+        return self.base.changed(
+            {
+                "seaway.wave_heading_deg": BOW_QUARTERING,
+                "seaway.seed": SEED,
+                "run.duration": self.seconds,
+                "run.model": model,
+                **changes,
+            }
+        )
+
+    @property
+    def _all(self) -> list[Case]:
+        return [*self.of_table.values(), *self.of_meshes.values()]
+
+    def is_measured(self, store: RunStore) -> bool:
+        timings = TimingStore(store.folder)
+        return all(
+            timings.failure(case) is not None or len(timings.timings(case)) >= self.rounds
+            for case in self._all
+        )
+
+    def measure(self, store: RunStore) -> None:
+        measure_costs(self._all, TimingStore(store.folder), rounds=self.rounds)
+
+    def section(self, store: RunStore, folder: Path) -> Section:
+        timings = TimingStore(store.folder)
+        table, meshes = (cost_rows(of, timings, rounds=self.rounds) for of in (self.of_table, self.of_meshes))
+        return Section(
+            self.key,
+            "Cost (8.4)",
+            "How much CPU time does a second of sea take?",
+            "Sea state 7 (H_s 7.5 m, T_p 15 s), 150°, 20 knots, medium mesh, step 0.2 s, long-crested seas of"
+            " 19 and 37 components, and a short-crested one with those directions and frequencies of the"
+            f" report whose energy is not negligible. Each run of {self.seconds:g} s was made"
+            f" {self.rounds} times, one at a time and in turn; the median counts. Compilation, once a"
+            " process, is told apart. The report's machine was a Pentium III of 800 MHz.",
+            _body(table, meshes),
+            (cost_statement(table),),
+            tables={"cost.csv": _csv((*table, *meshes))},
+            failures=tuple(f"{row.label}: {row.failure}" for row in (*table, *meshes) if row.failure),
+        )
+
+
+def cost_statement(rows: Sequence[CostRow]) -> Statement:
+    """Nonlinear runs take so many times less CPU than those of the report."""
+    times = {
+        published: TABLE_4["nonlinear"][published] / row.median
+        for published, row in zip((n for n in SEAS for _ in TABLE_4), rows, strict=True)
+        if row.model == "nonlinear"
+    }
+    figures = ", ".join(f"{ratio:.0f} times at {components}" for components, ratio in times.items())
+    return Statement(
+        f"Nonlinear runs take at least {LESS:g} times less CPU than in Table 4, at 19, 37 and 160 components",
+        all(ratio >= LESS for ratio in times.values()),
+        f"{figures}; at least {LESS:g}",
+        "some runs could not be timed" if any(row.failure for row in rows) else "",
+    )
+
+
+def _body(table: Sequence[CostRow], meshes: Sequence[CostRow]) -> str:
+    published = [
+        TABLE_4[row.model][n] for row, n in zip(table, (n for n in SEAS for _ in TABLE_4), strict=True)
+    ]
+    rows = [
+        [
+            row.model,
+            f"{row.components}",
+            f"{value:g}",
+            f"{row.median:.2g}",
+            f"{row.spread:.0%}",
+            f"{value / row.median:.0f}",
+        ]
+        for row, value in zip(table, published, strict=True)
+    ]
+    heads = ["model", "components", "the report", "here", "spread", "times less"]
+    by_mesh = [[row.label, f"{row.panels}", f"{row.median:.2g}", f"{row.spread:.0%}"] for row in meshes]
+    compilation = max((row.compilation for row in (*table, *meshes) if not row.failure), default=0.0)
+    return (
+        "CPU seconds over simulated seconds:\n\n"
+        + markdown_table(heads, rows, text_columns=1)
+        + f"\nCompilation and set-up: up to {compilation:.1f} s.\n\n### Growth\n\n"
+        + markdown_table(["panels of", "panels", "CPU over simulated", "spread"], by_mesh, text_columns=1)
+        + f"\n{_growth(table, meshes)}\n"
+    )
+
+
+def _growth(table: Sequence[CostRow], meshes: Sequence[CostRow]) -> str:
+    nonlinear = [row for row in table if row.model == "nonlinear"]
+    with_components = growth(nonlinear, [row.components for row in nonlinear])
+    with_panels = growth(meshes, [row.panels for row in meshes])
+    told = [
+        f"with the number of {what} to the power {found.told}"
+        for what, found in (("panels", with_panels), ("components", with_components))
+        if found is not None
+    ]
+    return f"The time of a nonlinear run grows {' and '.join(told)}." if told else ""
+
+
+def _csv(rows: Sequence[CostRow]) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["run", "model", "components", "panels", "round", "CPU over simulated time"])
+    for row in rows:
+        for number, cost in enumerate(row.cpu_per_second, start=1):
+            writer.writerow([row.label, row.model, row.components, row.panels, number, repr(cost)])
+    return text.getvalue()
