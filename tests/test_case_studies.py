@@ -188,6 +188,9 @@ def test_a_long_linear_run_is_the_sum_of_its_components(tmp_path: Path) -> None:
     off = np.abs(run / found.components - 1.0)[[2, 4]]
     assert (off < 0.003 + 3.0 * found.sampling_error[[2, 4]]).all()
     assert found.sampling_error[2] < 0.01
+    # Even frequencies have the same amplitudes in every realization: two scatter less by the root of two.
+    alone = frequency_domain(LinearNonlinear(case, 1), database)
+    np.testing.assert_allclose(alone.sampling_error, np.sqrt(2.0) * found.sampling_error, rtol=1e-9)
     # Thirteen components stand for the sea; most of its energy is among them.
     assert found.spectrum is not None
     assert found.components[2] == pytest.approx(found.spectrum[2], rel=0.1)
@@ -413,3 +416,20 @@ def test_a_case_that_cannot_vary_what_is_studied_is_refused(
     code, _, err = panelsim(*arguments[:commands], "other.toml", *arguments[commands:])
     assert code == 2 and told in err
     assert [file.name for file in tmp_path.iterdir()] == ["other.toml"]
+
+
+def test_the_order_is_over_the_step_or_the_side_of_a_panel() -> None:
+    def made_up(values: list[float], error: float, power: float) -> RmsStudy:
+        size = np.array(values)
+        rms = (1.0 - error * size**power)[:, None, None, None] * np.ones((1, 1, 6))
+        labels = tuple(map(str, values))
+        return RmsStudy("t", "v", labels, size, len(values) - 1, (StudySea("s", 0.0),), rms)
+
+    panels = mesh_convergence(case_of())
+    found = panels.order(made_up([160.0, 80.0, 40.0, 20.0, 10.0], 1e-5, 1.0), "vertex+centre")
+    assert found.order == pytest.approx(2.0, abs=0.01)  # 1 − ε h^p is not quite 1
+    steps = time_step_convergence(case_of())
+    values = [0.8, 0.4, 0.2, 0.1]
+    # a step in the duration of 60 s is what the samples of a run leave
+    assert "samples" in steps.order(made_up(values, 0.5 / 60.0, 1.0), "exponential").told
+    assert steps.order(made_up(values, 3.0 / 60.0, 1.0), "exponential").order == pytest.approx(1.0, abs=0.05)
