@@ -58,10 +58,10 @@ ABOUT_FREQUENCIES = (
 ABOUT_PARTS = (
     "The nonlinear pressure load of a run, less its linear part, is taken apart into what waves do to a ship"
     " at rest, what her motions do in calm water, and products of both; the linear ship answers each. Shares"
-    " of these answers in the variance of the difference between the models (covariances, which may be below 0"
-    " where loads act against each other), and the RMS of what all of them miss."
-    " What moves the ship slowly is a load of second order of the incident waves alone: neither here nor in the"
-    " report have diffraction and radiation such a load, which would act too."
+    " of these answers in the variance of the difference between the models (covariances, which may be below"
+    " 0 where loads act against each other), and the RMS of what all of them miss. What moves the ship slowly"
+    " is a load of second order of the incident waves alone: neither here nor in the report have diffraction"
+    " and radiation such a load, which would act too."
 )
 ROLL_FROM = 3.0  # m: the report excepts roll in bow quartering seas above it
 

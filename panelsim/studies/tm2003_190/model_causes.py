@@ -61,7 +61,9 @@ def frequencies_of(pairs: Sequence[Pair], store: RunStore) -> Frequencies:
 
 
 def _at_waves(case: Case, store: RunStore) -> FloatArray:
-    return at_wave_frequencies(store.load(case), case.seaway.components, case.speed, case.ship.gravity)
+    # Not that of the ship itself: to build her takes longer than all the rest.
+    gravity = case.file.ship.gravity
+    return at_wave_frequencies(store.load(case), case.seaway.components, case.speed, gravity)
 
 
 def frequencies_markdown(found: Frequencies) -> str:
@@ -120,8 +122,8 @@ def cause_in_words(frequencies: Frequencies, parts: Mapping[str, LoadParts]) -> 
         return ""
     share, change = frequencies.elsewhere[:, SLOW].mean(), np.median(np.abs(frequencies.change[:, SLOW]))
     told = (
-        f"of surge, sway, roll and yaw in bow quartering seas {100 * share:.0f} % of the variance on average is"
-        " at differences and sums of the waves' frequencies, while at those frequencies themselves the models"
+        f"of surge, sway, roll and yaw in bow quartering seas {100 * share:.0f} % of the variance on average"
+        " is at differences and sums of the waves' frequencies, while at those frequencies themselves the models"
         f" differ by {100 * change:.0f} % (median)"
     )
     return "; ".join([told, *(_largest_load(sea, one) for sea, one in parts.items())])
