@@ -129,7 +129,12 @@ class LinearNonlinear:
         studies = {name: plan.read(store) for name, plan in self.plans.items()}
         frequencies = {name: frequencies_of(self._pairs(name, BOW_QUARTERING), store) for name in studies}
         parts = stored_parts(self._taken_apart, store)
-        why = {name: cause_in_words(found, parts) for name, found in frequencies.items()}
+        why = {
+            name: cause_in_words(
+                found, {sea: one for sea, one in parts.items() if sea.startswith(f"{STEEPNESS[name]:g},")}
+            )
+            for name, found in frequencies.items()
+        }
         return Section(
             self.key,
             "Linear against nonlinear (8.3)",

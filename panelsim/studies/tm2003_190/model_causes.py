@@ -123,8 +123,8 @@ def cause_in_words(frequencies: Frequencies, parts: Mapping[str, LoadParts]) -> 
     share, change = frequencies.elsewhere[:, SLOW].mean(), np.median(np.abs(frequencies.change[:, SLOW]))
     told = (
         f"of surge, sway, roll and yaw in bow quartering seas {100 * share:.0f} % of the variance on average"
-        " is at differences and sums of the waves' frequencies, while at those frequencies themselves the models"
-        f" differ by {100 * change:.0f} % (median)"
+        " is at differences and sums of the waves' frequencies, while at those frequencies themselves the"
+        f" models differ by {100 * change:.0f} % (median)"
     )
     return "; ".join([told, *(_largest_load(sea, one) for sea, one in parts.items())])
 
@@ -132,4 +132,4 @@ def cause_in_words(frequencies: Frequencies, parts: Mapping[str, LoadParts]) -> 
 def _largest_load(sea: str, parts: LoadParts) -> str:
     """Which load has the largest share in the difference of these four motions."""
     share = parts.shares[:, SLOW].mean(axis=1)
-    return f"most of it comes from {PARTS[int(np.argmax(share))]} ({100 * share.max():.0f} %) in {sea}"
+    return f"the largest load is that of {PARTS[int(np.argmax(share))]} ({100 * share.max():.0f} %) at {sea}"
