@@ -22,7 +22,8 @@ SHORTEST = 10.0  # s
 # Shares of the energy left out below and above, and the width of a band over its frequency.
 _TAILS = (1e-5, 1e-4)
 _BAND = 0.01
-_LENGTHS_PER_DECADE = 20
+# Lengths that are tried in a decade: beats of waves rise and fall, the band of a spectrum falls evenly.
+_OF_WAVES, _OF_SPECTRUM = 20, 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +86,8 @@ class SamplingError:
         wanted = require_positive("band", band, "")
         last = require_positive("longest run", longest, "s")
         first = min(SHORTEST, 0.1 * last)
-        lengths = np.geomspace(first, last, int(_LENGTHS_PER_DECADE * np.log10(last / first)))
+        per_decade = _OF_SPECTRUM if self.spectral else _OF_WAVES
+        lengths = np.geomspace(first, last, int(per_decade * np.log10(last / first)))
         bands = np.array([self.band(float(length)) for length in lengths])
         return np.array([_from_which_on(lengths, of_one, wanted) for of_one in bands.T])
 

@@ -51,7 +51,7 @@ def excess_load(store: RunStore, case: Case) -> ExcessLoad:
     x = case.ship.vertices[:, 0]
     room = 1e-6 * np.ptp(x)
     stations = np.linspace(x.min() - room, x.max() + room, SECTIONS + 1)
-    time: FloatArray = 2.0 * np.pi / omega / INSTANTS * np.arange(INSTANTS)
+    time = np.linspace(0.0, 2.0 * np.pi / omega, INSTANTS, endpoint=False)
     turn = np.exp(1j * omega * time)
     first: FloatArray = np.asarray((turn[:, None] * found.complex_amplitude[0]).real)
     turns = turn[:, None] ** np.arange(1, len(found.complex_amplitude) + 1)

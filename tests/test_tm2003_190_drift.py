@@ -1,0 +1,232 @@
+"""Drift, kernel speed and sampling statistics of the report's set-up: verdicts on made-up data."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from panelsim.case import Case
+from panelsim.conventions import FloatArray
+from panelsim.errors import PanelsimError
+from panelsim.response.run_length import sampling_error
+from panelsim.results.rms_study import RmsStudy
+from panelsim.studies.run_store import RunStore, StoredRun
+from panelsim.studies.tm2003_190 import kernel_speed, look_up
+from panelsim.studies.tm2003_190.common import base_case, in_sea
+from panelsim.studies.tm2003_190.drift import (
+    FREE,
+    NO_SPRINGS,
+    SHIFTED,
+    Drift,
+    drift_statement,
+    force_statement,
+    powers,
+)
+from panelsim.studies.tm2003_190.kernel_speed import DIRECT, FILE, GRID, NUMPY, SINES, TABLES, KernelSpeed
+from panelsim.studies.tm2003_190.look_up import LookUpSurroundings
+from panelsim.studies.tm2003_190.statistics import SEA_STATE_7, SamplingStatistics, seed_scatter
+
+FAR, NEAR = np.array([[0.0, 0.0], [-300.0, 400.0]]), np.array([[0.0, 0.0], [3.0, -4.0]])
+
+
+@pytest.fixture(scope="module")
+def base() -> Case:
+    return base_case()
+
+
+class MadeUpRuns:
+    """A store of runs that drift with the square of the height if they are nonlinear, and else stay."""
+
+    def __init__(self, base: Case) -> None:
+        self.base = base
+
+    def failure(self, case: Case) -> str | None:
+        return None
+
+    def load(self, case: Case) -> StoredRun:
+        run = case.file.run
+        time = run.time_step * np.arange(run.steps + 1)
+        displacement = 0.1 * np.sin(0.5 * time)[:, None] * np.ones(6)
+        if run.model == "nonlinear":
+            height = case.file.seaway.significant_wave_height or np.nan
+            held = "surge" in case.supplementary.stiffness
+            displacement[:, 0] -= 0.02 * height**2 if held else time
+            displacement[:, 1] += 0.01 * height**2 if held else 0.0
+        loose = not case.supplementary.stiffness
+        attrs = {
+            "outcome": "diverged" if loose else "finished",
+            "outcome_detail": "broached",
+            "ramp": run.ramp,
+        }
+        return StoredRun(time, displacement, np.zeros(len(time)), attrs | {"time_step": run.time_step})
+
+
+def test_the_runs_are_without_the_terms_that_hold(base: Case) -> None:
+    study = Drift(base, quick=False)
+    free = study.free[FREE, 150.0, "nonlinear"].supplementary
+    assert free.stiffness == {"yaw": 2e9}
+    assert free.damping == {"roll": 2e7}
+    assert not study.free[NO_SPRINGS, 30.0, "linear"].supplementary.stiffness
+    assert study.held[1.0, "linear"].supplementary.stiffness == base.supplementary.stiffness
+    even, between = (study.free[kind, 30.0, "linear"].seaway.components for kind in (FREE, SHIFTED))
+    assert even.frequency[0] == pytest.approx(0.2)
+    assert between.frequency == pytest.approx(0.05 + even.frequency[:-1])
+
+
+def test_drift_is_judged_by_the_ship_length() -> None:
+    slow = (1.1, 0.0006)
+    assert drift_statement(150.0, FAR, NEAR, NEAR, 124.5, slow=slow).holds
+    assert not drift_statement(150.0, NEAR, NEAR, NEAR, 124.5, slow=slow).holds
+    assert not drift_statement(150.0, None, NEAR, NEAR, 124.5, slow=slow).holds
+    both = drift_statement(30.0, FAR, FAR, NEAR, 124.5, slow=slow)
+    assert not both.holds
+    assert "500 m nonlinear and 500 m linear" in both.figures
+    assert "1.1 rad/s is met at 0.0006 rad/s" in both.remark
+    assert "goes 5 m" in both.remark
+
+
+def test_the_mean_force_is_of_second_order_or_not() -> None:
+    force = {height: np.array([-3.0, 2.0]) * height**2 for height in (0.25, 0.5, 2.0)}
+    assert powers(force) == pytest.approx([2.0, 2.0])
+    assert force_statement(force).holds
+    assert not force_statement({h: values / h for h, values in force.items()}).holds
+    assert not force_statement({h: values * h**0.5 for h, values in force.items()}).holds
+    force[0.5] = np.array([np.nan, 0.5])
+    assert not force_statement(force).holds
+
+
+def test_the_section_of_drift(base: Case, tmp_path: Path) -> None:
+    study = Drift(base, quick=True)
+    store = MadeUpRuns(base)
+    section = study.section(store, tmp_path)  # type: ignore[arg-type]
+    # What the springs hold: 5e5 N/m times 0.02 m, away from the waves, and 1e6 N/m times 0.01 m.
+    force = study.mean_force(store)[1.0]  # type: ignore[arg-type]
+    assert force == pytest.approx([-1e4, 1e4])
+    assert [statement.holds for statement in section.statements] == [True, True, True]
+    assert not section.failures
+    assert "| no yaw spring | 30 | nonlinear | -660 | -0 | diverged: broached |" in section.body
+    assert (tmp_path / "drift.png").is_file()
+    assert "0.5,-2500,2500" in section.tables["mean_force.csv"]
+
+
+def test_a_wave_stands_still_beside_the_ship_in_stern_quartering_seas(base: Case) -> None:
+    """ω = g/(U cos 30°) is 1.1 rad/s at 20 knots."""
+    frequency, met = Drift(base, quick=True)._slowest(30.0)
+    assert frequency == pytest.approx(1.1)
+    assert abs(met) < 1e-3
+
+
+def test_tables_are_sines_and_exponentials() -> None:
+    angle = np.linspace(-50.0, 50.0, 10001)
+    # Half an entry: π/4096, and half of 20/65536.
+    assert look_up.cosine(angle) == pytest.approx(np.cos(angle), abs=np.pi / look_up.TURN * 1.001)
+    exponent = -np.linspace(0.0, 40.0, 10001)
+    assert look_up.decay(exponent) == pytest.approx(np.exp(exponent), abs=2e-4)
+
+
+def test_all_methods_compute_the_same_load(base: Case) -> None:
+    methods = kernel_speed._methods(base)
+    poses = kernel_speed._poses()[:2]
+    found = kernel_speed.timings({name: methods[name] for name in (NUMPY, TABLES)}, poses, 1)
+    assert found[NUMPY]["difference"] == 0.0
+    one, other = methods[NUMPY](poses), methods[TABLES](poses)
+    # Entries of tables are 1e-3 off, of either sign: over thousands of points and 19 waves little is left.
+    assert other == pytest.approx(one, abs=1e-3 * np.abs(one).max())
+    assert not np.array_equal(one, other)
+    assert LookUpSurroundings.__dataclass_fields__["stretching"].default == "wheeler"
+
+
+def test_timings_are_medians_of_turns(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A clock that every evaluation moves on: 2 s and 6 s of two poses, with one slow round of the first."""
+    clock = {"now": 0.0}
+    calls = {"a": 0, "b": 0}
+
+    def method(name: str, seconds: float, load: float) -> kernel_speed.Evaluate:
+        def evaluate(poses: FloatArray) -> FloatArray:
+            calls[name] += 1
+            clock["now"] += 50.0 if (name, calls[name]) == ("a", 2) else seconds
+            return np.full((len(poses), 6), load) * np.arange(1, len(poses) + 1)[:, None]
+
+        return evaluate
+
+    monkeypatch.setattr("time.process_time", lambda: clock["now"])
+    found = kernel_speed.timings(
+        {"a": method("a", 2.0, 1.0), "b": method("b", 6.0, 1.5)}, np.zeros((2, 8)), 3
+    )
+    assert found["a"]["seconds"] == 1.0
+    assert found["b"]["seconds"] == 3.0
+    # Loads of 1 and 2, which range over 1, against 1.5 and 3.
+    assert found["b"]["difference"] == 1.0
+
+
+def _timed(sines: float) -> dict[str, dict[str, float]]:
+    times = {NUMPY: 1e-2, SINES: sines * 1e-2, TABLES: 9e-3, DIRECT: 2e-4, GRID: 1e-4}
+    return {name: {"seconds": of, "spread": 0.1, "difference": 1e-6} for name, of in times.items()}
+
+
+def test_tables_that_gain_flip_the_verdict() -> None:
+    assert kernel_speed.statements(_timed(1.2))[0].holds
+    assert kernel_speed.statements(_timed(0.96))[0].holds
+    assert not kernel_speed.statements(_timed(0.9))[0].holds
+
+
+def test_timings_are_kept_beside_the_runs(
+    base: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Measured once; those of another version are not taken; without any there is no section."""
+    study, store = KernelSpeed(base, quick=True), RunStore(tmp_path)
+    with pytest.raises(PanelsimError, match="not measured"):
+        study.section(store, tmp_path)
+    monkeypatch.setattr(kernel_speed, "timings", lambda *given: _timed(0.8))
+    study.measure(store)
+    assert study.is_measured(store)
+    section = study.section(store, tmp_path)
+    assert "| kernel, grid | 100 | 0.01 |" in section.body
+    assert not section.statements[0].holds
+    assert not KernelSpeed(base, quick=False).is_measured(store)
+    monkeypatch.setattr(kernel_speed, "timings", lambda *given: _timed(1.2))
+    study.measure(store)
+    assert not study.section(store, tmp_path).statements[0].holds
+    told = json.loads((tmp_path / FILE).read_text(encoding="utf-8"))
+    (tmp_path / FILE).write_text(json.dumps(told | {"panelsim_version": "0.0"}), encoding="utf-8")
+    study.measure(store)
+    assert study.section(store, tmp_path).statements[0].holds
+
+
+def test_the_scatter_of_seeds_is_that_of_one_run() -> None:
+    study = SamplingStatistics(base_case(), quick=True).plan
+    rms = np.ones((2, len(study.seas), 3, 6))
+    rms[1, :, :, 2] = [0.9, 1.0, 1.1]
+    made = RmsStudy("", "", ("linear", "nonlinear"), np.arange(2.0), 1, study.seas, rms)
+    found = seed_scatter(made, 1)[0]
+    # Standard deviation 0.1 about an RMS of √1.00667.
+    assert found == pytest.approx([0.0, 0.0, 1.95996 * 0.1 / np.sqrt(1 + 0.02 / 3), 0.0, 0.0, 0.0], abs=1e-5)
+
+
+def test_the_statistics_of_the_sea_are_those_of_its_components(base: Case) -> None:
+    """The grid against the spectrum as `sampling_error` itself has it."""
+    study, sea = SamplingStatistics(base, quick=True), SEA_STATE_7[1]
+    whole = sampling_error(study.table, in_sea(base, sea, 0).seaway)
+    assert whole.grid_error is not None
+    ratio = study._of_components(sea).rms / study._of_spectrum(sea).rms - 1.0
+    assert ratio == pytest.approx(whole.grid_error)
+    # 0.1 rad/s is too coarse for the roll resonance.
+    assert ratio[3] < -0.2
+
+
+def test_the_section_of_statistics(base: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("panelsim.studies.tm2003_190.statistics.JITTERED", 3)
+    study = SamplingStatistics(base, quick=True)
+    section = study.section(MadeUpRuns(base), tmp_path)  # type: ignore[arg-type]
+    assert not section.statements
+    assert not section.failures
+    # In stern quartering seas of 7 m two waves beat for hours; from the bow none do.
+    stern, bow = (
+        next(line for line in section.body.splitlines() if name in line)
+        for name in ("9.6 s, 30°", "9.6 s, 150°")
+    )
+    assert "∞ | ∞" in stern
+    assert "∞" not in bow
+    assert (tmp_path / "sampling.png").is_file()
+    assert len(section.tables["sampling.csv"].splitlines()) == 1 + 6 * 4

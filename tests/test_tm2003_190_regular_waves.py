@@ -1,0 +1,247 @@
+"""Regular waves and stretching: runs that are made up from the frequency domain, whose verdicts are known."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from panelsim.case import Case
+from panelsim.conventions import ComplexArray, Dof, FloatArray
+from panelsim.loads.hull_pressure import hull_pressure
+from panelsim.studies.case_history import case_history
+from panelsim.studies.run_store import StoredRun
+from panelsim.studies.tm2003_190.common import base_case
+from panelsim.studies.tm2003_190.excess_load import ExcessLoad, excess_load
+from panelsim.studies.tm2003_190.regular_runs import (
+    Measured,
+    RegularRuns,
+    met_frequency,
+    relative_difference,
+    worst,
+)
+from panelsim.studies.tm2003_190.regular_waves import (
+    SINUSOIDAL,
+    STOKES,
+    RegularWaves,
+    cause,
+    domains_statement,
+    growth,
+    stokes_statement,
+)
+from panelsim.studies.tm2003_190.stretching import Stretching
+from panelsim.studies.tm2003_190.stretching import statement as stretching_statement
+
+Factor = Callable[[Case], float]
+
+
+class MadeUpRuns:
+    """Runs whose first harmonics are those of the frequency domain times a factor of the case."""
+
+    def __init__(self, grid: RegularRuns, factor: Factor, failed: int | None = None) -> None:
+        self._linear, self._grid, self._factor, self._failed = grid.linear(), grid, factor, failed
+
+    def failure(self, case: Case) -> str | None:
+        """The one that failed, by its number."""
+        own = self._failed is not None and self._place(case) == list(np.ndindex(2, 3))[self._failed]
+        return "made to fail" if own else None
+
+    def load(self, case: Case) -> StoredRun:
+        """Those harmonics, a mean heave of a tenth of the wave, a second one of a twentieth."""
+        run, waves = case.file.run, case.seaway.components
+        time = run.time_step * np.arange(run.steps + 1)
+        displacement = np.zeros((len(time), 6))
+        turn = np.exp(1j * met_frequency(case) * time)
+        if case.file.seaway.kind == "regular":
+            z = self._linear[self._place(case)] * self._factor(case) * waves.amplitude[0]
+            displacement[:, 2] = (
+                0.1 * waves.amplitude[0] + (z[0] * turn).real + 0.05 * abs(z[0]) * (turn**2).real
+            )
+            displacement[:, 4] = (z[1] * waves.wavenumber(case.ship.gravity) * turn).real
+        else:
+            displacement[:] = self._factor(case) * np.sin(time)[:, None]
+        attrs = {"outcome": "finished", "outcome_detail": "", "ramp": run.ramp, "time_step": run.time_step}
+        return StoredRun(time, displacement, np.zeros(len(time)), attrs)
+
+    def _place(self, case: Case) -> tuple[int, int]:
+        length = case.file.seaway.wave_length or np.nan
+        ratio = np.array(self._grid.length_ratio) - length / case.ship.length
+        speeds = [of.speed for (_, r, h), of in self._grid.by_index.items() if r == h == 0]
+        return int(np.argmin(np.abs(np.array(speeds) - case.speed))), int(np.argmin(np.abs(ratio)))
+
+
+@pytest.fixture(scope="module")
+def base() -> Case:
+    return base_case()
+
+
+@pytest.fixture(scope="module")
+def study(base: Case) -> RegularWaves:
+    return RegularWaves(base, quick=True)
+
+
+def test_cases_are_the_waves_and_speeds_of_the_report(base: Case) -> None:
+    full = RegularWaves(base, quick=False)
+    assert len(full.cases) == 2 * 10 * (4 + 3)
+    case = full.runs[STOKES].by_index[1, 2, 0]
+    length, gravity = base.ship.length, base.ship.gravity
+    assert case.speed == pytest.approx(0.20 * np.sqrt(gravity * length))
+    waves = case.seaway.components
+    assert waves.second_order
+    # λ = L, H = L/30.
+    assert 2 * np.pi / waves.wavenumber(gravity)[0] == pytest.approx(length)
+    assert waves.amplitude[0] == pytest.approx(length / 60)
+    assert waves.wave_heading[0] == pytest.approx(np.pi)
+    assert case.file.run.model == "nonlinear"
+    assert case.file.seaway.stretching == "wheeler"
+    assert full.runs[STOKES].told((1, 2, 0)) == "Fn 0.2, λ/L 1, H/λ 1/30"
+
+
+def test_in_long_waves_the_ship_follows_the_surface(base: Case) -> None:
+    """Heave tends to the amplitude, pitch to the slope: down by the bow a quarter period before the crest."""
+    found = RegularRuns(base, (0.0,), (40.0,), (0.001,), {}).linear()[0, 0]
+    # λ/L = 40: diffraction of first order in kL is some 2 %.
+    assert found[0] == pytest.approx(1.0, abs=0.03)
+    assert abs(found[1]) == pytest.approx(1.0, abs=0.03)
+    assert abs(found[1].real) < 0.1
+
+
+def test_a_run_in_low_waves_is_the_frequency_domain(base: Case) -> None:
+    """Amplitude, phase, slope and sign, of a nonlinear run at H/λ 1/1000."""
+    runs = RegularRuns(base, (0.2,), (1.4,), (0.001,), {"run.duration": 120.0})
+    (case,) = runs.cases
+    history = case_history(case, base.database())
+    run = StoredRun(history.time, history.displacement, history.wave_elevation, history.attrs)
+    store = MadeUpRuns(runs, lambda case: 1.0)
+    store.load = lambda case: run  # type: ignore[method-assign]
+    found = runs.read(store)
+    # What is left is of the transom, which the first power of the height brings down from 4 % at 1/30.
+    assert found.transfer[0, 0, 0] == pytest.approx(runs.linear()[0, 0], abs=4e-3)
+    assert found.unsettled.max() < 1e-3
+    excess = excess_load(store, case)
+    assert excess.size(Dof.PITCH) < 2e-3
+    assert excess.share(Dof.HEAVE).sum() == pytest.approx(1.0)
+
+
+def test_the_sections_of_the_excess_make_the_load_of_the_hull(study: RegularWaves) -> None:
+    """The first harmonic of the load on the whole hull, found in another way."""
+    runs = study.runs[SINUSOIDAL]
+    store, case = MadeUpRuns(runs, lambda case: 1.0), runs.by_index[0, 0, 0]
+    excess, run = excess_load(store, case), store.load(case)
+    period = 2 * np.pi / met_frequency(case)
+    time = period / 16 * np.arange(16)
+    rows = np.stack(
+        [np.interp(time + 20 * period, run.time, values) for values in run.displacement.T], axis=1
+    )
+    loads = np.array(
+        [
+            hull_pressure(case.ship, case.seaway, float(t), row, speed=case.speed, method="oracle").load
+            for t, row in zip(time, rows, strict=True)
+        ]
+    )
+    whole = np.exp(-2j * np.pi / 16 * np.arange(16)) @ loads / 8
+    # Motions between samples 0.1 s apart of a period of 6 s: 1e-3.
+    assert excess.load.sum(axis=0)[[2, 4]] == pytest.approx(whole[[2, 4]], rel=5e-3)
+    assert 0.01 < excess.size(Dof.PITCH) < 0.5
+
+
+def test_minor_amplitudes_count_for_nothing() -> None:
+    linear = np.array([[[1.0, 0.04], [0.5, 1.0]]], dtype=complex)
+    found = np.array([[[[1.1, 9.0]], [[0.4j, 1.02]]]], dtype=complex)
+    difference = relative_difference(found, linear, linear)
+    assert difference[0, :, 0] == pytest.approx(np.array([[0.1, np.nan], [-0.2, 0.02]]), nan_ok=True)
+    assert worst(difference) == (0, 1, 0, 0)
+    assert worst(np.full((2, 2), np.nan)) is None
+
+
+def _measured(transfer: ComplexArray) -> Measured:
+    nothing: FloatArray = np.zeros(transfer.shape)
+    return Measured(transfer, nothing, nothing, nothing, ())
+
+
+@pytest.mark.parametrize(("factor", "holds"), [(1.04, True), (0.96, True), (1.06, False), (0.94, False)])
+def test_verdicts_follow_the_amplitudes(study: RegularWaves, factor: float, holds: bool) -> None:
+    """5 % of the amplitude at one point, whatever its phase."""
+    runs = study.runs[STOKES]
+    linear = np.full((2, 3, 2), 1.0 + 0.0j)
+    transfer = linear.copy()
+    transfer[1, 1, 0] *= factor * np.exp(0.3j)
+    found = domains_statement(runs, transfer, linear)
+    assert found.holds is holds
+    assert f"{100 * (factor - 1):+.0f} % in heave (Fn 0.2, λ/L 1.4" in found.figures
+    assert ("from λ/L 2 on" in found.remark) is not holds
+    second = stokes_statement(runs, _measured(transfer[:, :, None]), _measured(linear[:, :, None]), linear)
+    assert second.holds is holds
+    assert f"{abs(100 * (factor - 1)):.0f} % at H/λ 1/20" in second.remark
+    transfer[0, 0, 1] = np.nan
+    assert not domains_statement(runs, transfer, linear).holds
+    assert not stokes_statement(
+        runs, _measured(transfer[:, :, None]), _measured(linear[:, :, None]), linear
+    ).holds
+
+
+def test_wheeler_makes_the_difference_vanish_only_if_it_was_there() -> None:
+    linear = np.ones((2, 3, 2), dtype=complex)
+    near, far = _measured(1.04 * linear[:, :, None]), _measured(1.08 * linear[:, :, None])
+    assert stretching_statement(near, far, linear).holds
+    assert not stretching_statement(near, near, linear).holds
+    assert not stretching_statement(far, near, linear).holds
+    assert not stretching_statement(far, far, linear).holds
+    assert "heave 4 %, pitch 4 %; no stretching: heave 8 %" in stretching_statement(near, far, linear).figures
+
+
+def test_the_power_of_the_height_is_told(base: Case) -> None:
+    runs = RegularRuns(base, (0.12,), (1.0,), (0.01, 0.03), {})
+    assert growth(runs, np.array([1e-4, 9e-4j])) == pytest.approx(2.0)
+    assert np.isnan(growth(RegularRuns(base, (0.12,), (1.0,), (0.05,), {}), np.array([1e-4j])))
+    stations = np.array([-60.0, 0.0, 60.0])
+    load = np.zeros((2, 6), dtype=complex)
+    load[:, Dof.PITCH] = [6.0, 5.0]
+    excess = ExcessLoad(stations, load, np.where(load == 6.0, 3.0, np.where(load == 5.0, 4.0, 0.0)))
+    found = _measured(np.array([1.0001, 1.0003])[None, None, :, None] * np.ones((1, 1, 2, 2), dtype=complex))
+    told = cause(excess, runs, found, np.ones((1, 1, 2), dtype=complex), (0, 0, 1))
+    # 4 more than 7, of which 3 aft; 1e-4 and 3e-4 over heights as 1 to 3.
+    assert "57 % off" in told
+    assert "75 % of that" in told
+    assert "x = -30 m, the transom, which calm water wets by 0.37 m" in told
+    assert "1.0th power" in told
+
+
+def test_the_section_says_what_the_runs_show(study: RegularWaves, tmp_path: Path) -> None:
+    grid = study.runs[SINUSOIDAL]
+    store = MadeUpRuns(grid, lambda case: 1.03 if case.file.seaway.wave_theory == "stokes" else 1.0)
+    section = study.section(store, tmp_path)
+    assert [statement.holds for statement in section.statements] == [True, True]
+    assert "+3 % in" in section.statements[0].figures
+    assert not section.failures
+    assert all((tmp_path / name).is_file() for name, _ in section.pictures)
+    assert "| Stokes against sinusoidal | 1/20 | +3 | +3 |" in section.body
+    rows = section.tables["regular_waves.csv"].splitlines()
+    assert len(rows) == 1 + len(study.cases)
+    first = dict(zip(rows[0].split(","), rows[1].split(","), strict=True))
+    assert float(first["heave amplitude"]) == pytest.approx(float(first["heave frequency domain"]), rel=1e-5)
+    assert float(first["heave phase [deg]"]) == pytest.approx(float(first["heave its phase [deg]"]), abs=1e-3)
+    assert float(first["heave mean"]) == pytest.approx(0.1)
+    flipped = study.section(MadeUpRuns(grid, lambda case: 1.08), tmp_path).statements
+    assert [statement.holds for statement in flipped] == [True, False]
+    assert "transom" in flipped[1].remark or "of that comes from" in flipped[1].remark
+
+
+def test_a_run_that_failed_is_told_and_holds_nothing(study: RegularWaves, tmp_path: Path) -> None:
+    store = MadeUpRuns(study.runs[SINUSOIDAL], lambda case: 1.0, failed=4)
+    section = study.section(store, tmp_path)
+    assert section.failures[0] == "sinusoidal: Fn 0.2, λ/L 1.4, H/λ 1/20: made to fail"
+    assert not any(statement.holds for statement in section.statements)
+
+
+def test_stretching_compares_both_with_the_frequency_domain(base: Case, tmp_path: Path) -> None:
+    study = Stretching(base, quick=True)
+    assert {case.file.seaway.stretching for case in study.cases} == {"wheeler", "none"}
+    grid = next(iter(study.runs.values()))
+    store = MadeUpRuns(grid, lambda case: 1.1 if case.file.seaway.stretching == "none" else 1.01)
+    section = study.section(store, tmp_path)
+    (statement,) = section.statements
+    assert statement.holds
+    assert "Wheeler: heave 1 %, pitch 1 %; no stretching: heave 10 %, pitch 10 %" in statement.figures
+    # The random runs are 1.01 for both linear and Wheeler.
+    assert section.rms[0].difference[:, 0, 2] == pytest.approx([0.0, 0.0, 1.1 / 1.01 - 1.0], abs=1e-6)
