@@ -58,10 +58,10 @@ ABOUT_FREQUENCIES = (
 ABOUT_PARTS = (
     "The nonlinear pressure load of a run, less its linear part, is taken apart into what waves do to a ship"
     " at rest, what her motions do in calm water, and products of both; the linear ship answers each. Shares"
-    " of these answers in the variance of the difference between the models (covariances, which may be below 0"
-    " where loads act against each other), and the RMS of what all of them miss."
-    " What moves the ship slowly is a load of second order of the incident waves alone: neither here nor in the"
-    " report have diffraction and radiation such a load, which would act too."
+    " of these answers in the variance of the difference between the models (covariances, which may be below"
+    " 0 where loads act against each other), and the RMS of what all of them miss. What moves the ship slowly"
+    " is a load of second order of the incident waves alone: neither here nor in the report have diffraction"
+    " and radiation such a load, which would act too."
 )
 ROLL_FROM = 3.0  # m: the report excepts roll in bow quartering seas above it
 
@@ -129,7 +129,12 @@ class LinearNonlinear:
         studies = {name: plan.read(store) for name, plan in self.plans.items()}
         frequencies = {name: frequencies_of(self._pairs(name, BOW_QUARTERING), store) for name in studies}
         parts = stored_parts(self._taken_apart, store)
-        why = {name: cause_in_words(found, parts) for name, found in frequencies.items()}
+        why = {
+            name: cause_in_words(
+                found, {sea: one for sea, one in parts.items() if sea.startswith(f"{STEEPNESS[name]:g},")}
+            )
+            for name, found in frequencies.items()
+        }
         return Section(
             self.key,
             "Linear against nonlinear (8.3)",
