@@ -14,7 +14,6 @@ from panelsim.errors import PanelsimError
 from panelsim.motion.history import History
 from panelsim.results.rms_study import StudySea
 from panelsim.results.statistics import statistics
-from panelsim.studies.case_history import history_of_text
 from panelsim.studies.rms_of_runs import rms_of_runs
 from panelsim.studies.run_store import RunStore, kept_bytes, run_identity, run_key
 
@@ -171,13 +170,3 @@ def test_rms_of_runs_reads_levels_seas_and_realizations_in_their_places(
     np.testing.assert_allclose(study.rms[0, 2, 1], 22.0 * one, rtol=1e-12)
     assert np.isnan(study.rms[1, 2, 0]).all() and np.isfinite(study.rms).sum() == 11 * 6
     assert study.failures == ("0.1 s, sea 2, realization 1: no luck",)
-
-
-def test_a_case_from_text_runs_as_the_case_itself(case: Case) -> None:
-    short = case.changed({"ship.panel_area": 20.0, "run.duration": 4.0, "run.ramp": 2.0})
-    texts = [short.changed({"seaway.seed": seed}).file.model_dump_json(exclude_none=True) for seed in (1, 2)]
-    first, second = (history_of_text(text, short.folder, "short") for text in texts)
-    assert first.attrs["seed"] == 1 and second.attrs["seed"] == 2
-    assert not first.same_bits(second)
-    again = history_of_text(texts[0], short.folder, "short")
-    assert first.same_bits(again)
