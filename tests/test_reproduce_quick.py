@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-# What the report says, in short, and whether it holds here with heights of 3 and 7 m; reasons are on the page.
+# What the report says, in short, and whether it holds here with heights of 3 and 7 m; the page has the reasons.
 VERDICTS = {
     "exponential: 0.1 and 0.2 s": True,
     "exponential: 0.5 s": False,  # the scheme is better than the report's
@@ -36,7 +36,7 @@ def test_the_reduced_set_gives_the_verdicts_that_it_gave(
     panelsim: Callable[..., tuple[int, str, str]], tmp_path: Path
 ) -> None:
     start = time.monotonic()
-    code, out, err = panelsim("reproduce", "tm2003-190", "--quick")
+    code, _out, err = panelsim("reproduce", "tm2003-190", "--quick")
     took = time.monotonic() - start
     assert code == 0, err
     folder = tmp_path / "reports/tm2003-190-quick"
