@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-# What the report says, in short, and whether it holds here with heights of 3 and 7 m; the page has the reasons.
+# What the report says, in short, and whether it holds here with heights of 3 and 7 m; why is on the page.
 VERDICTS = {
     "exponential: 0.1 and 0.2 s": True,
     "exponential: 0.5 s": False,  # the scheme is better than the report's
