@@ -87,9 +87,9 @@ def _section(section: Section) -> str:
         f"*{section.question}* {section.setup}\n",
         *(f"![{caption}](pictures/{name})\n\n{caption}\n" for name, caption in section.pictures),
         f"{section.body.strip()}\n",
-        "### Verdicts\n",
-        "".join(_told(statement) for statement in section.statements),
     ]
+    if section.statements:
+        lines += ["### Verdicts\n", "".join(_told(statement) for statement in section.statements)]
     if section.failures:
         count = len(section.failures)
         lines.append(f"{count} run{'s' if count > 1 else ''} of this study failed; see the end.\n")
@@ -102,7 +102,8 @@ def _section(section: Section) -> str:
 
 
 def _told(statement: Statement) -> str:
-    remark = f" {statement.remark[0].upper()}{statement.remark[1:]}." if statement.remark else ""
+    remark = statement.remark.removesuffix(".")
+    remark = f" {remark[0].upper()}{remark[1:]}." if remark else ""
     return f"- {statement.says}: **{verdict(statement)}**: {statement.figures}.{remark}\n"
 
 
