@@ -149,7 +149,7 @@ class Mesh:
         off, elsewhere = 100 * frequencies.change[0, mode], 100 * frequencies.elsewhere[0, mode]
         return (
             f"at the frequencies of the waves themselves {found.mode} is {off:+.2g} % off there;"
-            f" {elsewhere:.0f} % of its variance is at their differences and sums, those of second-order loads"
+            f" {elsewhere:.0f} % of its variance is at their differences and sums, of second order"
         )
 
 
