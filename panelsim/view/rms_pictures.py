@@ -16,6 +16,7 @@ from panelsim.results.statistics import display_unit
 from panelsim.results.verdicts import IDENTICAL
 from panelsim.view.plots import COLORS, INK, plain, save
 
+WIDE = 20.0  # times one per cent: from here on differences are drawn by their logarithm
 _MARKERS = "osD^vP*X"
 
 
@@ -143,9 +144,24 @@ def _shade(axis: Axes, height: FloatArray, rms: FloatArray, band: FloatArray) ->
 
 
 def _finish_twin(twin: Axes, *, minor: bool) -> None:
-    """A line at no difference, room for a per cent either way, and a word where there is nothing to show."""
+    """A line at no difference, room for a per cent either way, and a word where there is nothing to show.
+
+    Where a low sea has differences of many times a per cent, those beyond one per cent are drawn by their
+    logarithm, so that the others can still be read.
+    """
     twin.axhline(0.0, color=INK, linewidth=0.8)
-    reach = 1.15 * max(100.0 * IDENTICAL, float(np.max(np.abs(twin.dataLim.intervaly), initial=0.0)))
+    one = 100.0 * IDENTICAL
+    reach = 1.15 * max(one, float(np.max(np.abs(twin.dataLim.intervaly), initial=0.0)))
+    if reach > WIDE * one:
+        decades = 10.0 ** np.arange(np.ceil(np.log10(reach)))
+        twin.set_yscale("symlog", linthresh=one)
+        ticks = np.concatenate([-decades[::-1], [0.0], decades])
+        twin.set_yticks(
+            ticks,
+            [f"{tick:g}" if tick in (0.0, one, -one) or abs(tick) == decades[-1] else "" for tick in ticks],
+        )
+        twin.set_yticks([], minor=True)
+        reach *= 1.5
     twin.set_ylim(-reach, reach)
     if minor:
         _say_minor(twin)
