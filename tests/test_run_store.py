@@ -104,7 +104,7 @@ def test_a_run_of_another_version_is_refused(
 ) -> None:
     keep(store, case, make_history())
     store.save_failure(case.changed({"seaway.seed": 7}), "no such sea")
-    monkeypatch.setattr(run_store, "version", lambda name: "9.9.9")
+    monkeypatch.setattr(run_store, "panelsim_version", lambda: "9.9.9")
     with pytest.raises(PanelsimError, match=r"another version(.|\n)*0\.1\.0(.|\n)*9\.9\.9"):
         store.load(case)
     with pytest.raises(PanelsimError, match="another version"):

@@ -34,8 +34,7 @@ def rms_of_runs(
         case = case_of(level, sea, realization)
         failure = store.failure(case)
         if failure is None:
-            run = store.load(case)
-            rms[level, sea, realization], failure = run.rms, run.early_end
+            rms[level, sea, realization], failure = store.rms(case)
         if failure is not None:
             failures.append(f"{levels[level]}, {seas[sea].label}, realization {realization + 1}: {failure}")
     return RmsStudy(title, varied, tuple(levels), values, reference, tuple(seas), rms, tuple(failures))

@@ -8,7 +8,7 @@ a run of another case or version is not taken for this one.
 import hashlib
 import json
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,7 @@ from panelsim.errors import PanelsimError
 from panelsim.files import write_whole
 from panelsim.motion.history import History
 
+panelsim_version = cache(lambda: version("panelsim"))  # to look it up takes as long as to read a run
 KEPT = ("displacement", "wave_elevation")
 _ANOTHER = "choose another folder for the runs, or remove those that are in it"
 
@@ -69,6 +70,7 @@ class RunStore:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self._lost: dict[str, str] = {}
+        self._rms: dict[str, tuple[FloatArray, str | None]] = {}
 
     def __contains__(self, case: Case) -> bool:
         """Whether the run, or why it failed, is known."""
@@ -84,10 +86,11 @@ class RunStore:
     def save(self, case: Case, content: bytes) -> None:
         """Keep a run as `kept_bytes` made it, whole or not at all."""
         write_whole(self.path(case), content)
+        self._rms.pop(run_key(case), None)
 
     def save_failure(self, case: Case, message: str) -> None:
         """Keep why a case could not be run."""
-        told = {"identity": run_identity(case), "panelsim_version": version("panelsim"), "message": message}
+        told = {"identity": run_identity(case), "panelsim_version": panelsim_version(), "message": message}
         write_whole(self._failure_path(case), json.dumps(told, ensure_ascii=False).encode())
 
     def note_lost(self, case: Case, message: str) -> None:
@@ -102,6 +105,17 @@ class RunStore:
         told = json.loads(path.read_text(encoding="utf-8"))
         _require_same(path, told, case)
         return str(told["message"])
+
+    def rms(self, case: Case) -> tuple[FloatArray, str | None]:
+        """`StoredRun.rms` and `early_end` of a case; studies that share runs read them once.
+
+        Raises PanelsimError as `load` does.
+        """
+        key = run_key(case)
+        if key not in self._rms:
+            run = self.load(case)
+            self._rms[key] = run.rms, run.early_end
+        return self._rms[key]
 
     def load(self, case: Case) -> StoredRun:
         """The run of a case.
@@ -165,11 +179,11 @@ def _digest(path: Path) -> str:
 
 def _require_same(path: Path, told: dict[str, Any], case: Case) -> None:
     """Raise PanelsimError for a file of another version or case."""
-    if told.get("panelsim_version") != version("panelsim"):
+    if told.get("panelsim_version") != panelsim_version():
         raise PanelsimError(
             "A stored run is of another version of panelsim",
             got=f"{path}: {told.get('panelsim_version', 'not told')}",
-            allowed=version("panelsim"),
+            allowed=panelsim_version(),
             remedy=_ANOTHER,
         )
     if told.get("identity") != run_identity(case):

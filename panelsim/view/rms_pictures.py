@@ -17,6 +17,7 @@ from panelsim.results.verdicts import IDENTICAL
 from panelsim.view.plots import COLORS, INK, plain, save
 
 WIDE = 20.0  # times one per cent: from here on differences are drawn by their logarithm
+_MARGINS = {"left": 0.06, "right": 0.99, "top": 0.925, "bottom": 0.095, "hspace": 0.28, "wspace": 0.17}
 _MARKERS = "osD^vP*X"
 
 
@@ -29,8 +30,15 @@ def rms_over_height(study: RmsStudy, wave_heading_deg: float, path: Path) -> Pat
     """
     seas = _by_height(study, wave_heading_deg)
     height = np.array([study.seas[i].significant_wave_height for i in seas], dtype=np.float64)
-    figure = Figure(figsize=(12, 9), layout="constrained")
-    axes = figure.subplots(4, 3, sharex=True, height_ratios=[3, 1.2, 3, 1.2])
+    # Margins by hand: a layout engine takes as long again as the picture, and pages have many of them.
+    figure = Figure(figsize=(12, 9))
+    axes = figure.subplots(
+        4,
+        3,
+        sharex=True,
+        height_ratios=[3, 1.2, 3, 1.2],
+        gridspec_kw=_MARGINS,  # of the figure, and of a panel
+    )
     above, below = axes[[0, 2]].ravel(), axes[[1, 3]].ravel()
     shown, band = display_rms(study.pooled)[:, seas], study.band[study.reference, seas]
     for mode, (axis, twin) in enumerate(zip(above, below, strict=True)):
@@ -183,4 +191,12 @@ def _caption(figure: Figure, axis: Axes, title: str) -> None:
     figure.suptitle(title, fontsize=11)
     handles, labels = axis.get_legend_handles_labels()
     columns = min(len(labels), 6)
-    figure.legend(handles, labels, loc="outside lower center", ncols=columns, frameon=False, fontsize=9)
+    outside = figure.get_layout_engine() is not None
+    figure.legend(
+        handles,
+        labels,
+        loc="outside lower center" if outside else "lower center",
+        ncols=columns,
+        frameon=False,
+        fontsize=9,
+    )
