@@ -22,10 +22,12 @@ MESH_LEVELS = ("5 m²", "2.5 m²", "1 m²")
 Change = tuple[str, int, int, float]  # level, sea, mode, difference
 
 
-def made_up(levels: Sequence[str], reference: int, *changes: Change) -> RmsStudy:
-    """A study in which all is alike but for these changes; sway is minor everywhere."""
-    seas = study_seas(HEIGHTS, 0.049)
-    rms = np.ones((len(levels), len(seas), 2, 6))
+def made_up(
+    levels: Sequence[str], reference: int, *changes: Change, heights: tuple[float, ...] = HEIGHTS
+) -> RmsStudy:
+    """A study of one realization in which all is alike but for these changes; sway is minor everywhere."""
+    seas = study_seas(heights, 0.049)
+    rms = np.ones((len(levels), len(seas), 1, 6))
     rms[..., Dof.SWAY] = 0.04  # below 5 % of the others
     for level, sea, mode, difference in changes:
         rms[list(levels).index(level), sea, :, mode] *= 1.0 + difference
@@ -149,16 +151,16 @@ def test_steep_seas(changes: list[Change], holds: bool) -> None:
 def test_exceptions_and_their_cause_are_named() -> None:
     found = steep_statement(models(*STEEP, ("nonlinear", HIGH_BOW, Dof.SURGE, 2.3)), "slow drift")
     assert "+230 % in surge (H_s 5 m, T_p 8.1 s, 150°), not ≤ 5 %" in found.figures
-    assert found.remark == "beyond 5 %: surge at 150° (5 m, up to 230 %); slow drift"
+    assert found.remark == "beyond 5 %: surge at 150° (5 m, up to +230 %); slow drift"
     study = models(*[("nonlinear", sea, Dof.PITCH, -0.07) for sea in (LOW_STERN, HIGH_STERN)])
     assert exceptions(study, "nonlinear", everywhere(study), 0.05) == (
-        "beyond 5 %: pitch at 30° (2 to 5 m, up to 7 %)"
+        "beyond 5 %: pitch at 30° (2 to 5 m, up to -7 %)"
     )
 
 
 def test_a_run_that_failed_breaks_a_statement() -> None:
     study = steps()
-    study.rms[1, HIGH_BOW, 1] = np.nan
+    study.rms[1, HIGH_BOW, 0] = np.nan
     alike, apart = step_statements("ab3", study)
     assert not alike.holds
     assert "a run did not finish (H_s 5 m, T_p 8.1 s, 150°)" in alike.figures

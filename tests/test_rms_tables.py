@@ -62,7 +62,7 @@ def test_a_run_that_failed_is_the_worst_of_all() -> None:
     study.rms[1, 0] = np.nan
     assert np.isnan(worst_difference(study, 1).amount)
     assert worst_difference(study, 1, 150.0).amount == pytest.approx(0.2, rel=1e-12)
-    assert "a run did not finish | not known" in difference_markdown(study)
+    assert "a run did not finish (low, 30°) | not known" in difference_markdown(study)
     study = made_up([1.0, 1.2], [0.1, 0.2], reference=0)
     study.rms[0, 1] = np.nan  # that of the reference
     assert np.isnan(worst_difference(study, 1).amount)

@@ -1,5 +1,6 @@
 """What the studies of TM 2003-190 section 8 share: the ship, the seas and how much of them is run."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,6 +20,7 @@ TYPICAL_STEEPNESS = 0.021  # section 8.3
 # At the limiting steepness half of the energy of a sea of 1 m is above the 2.0 rad/s where the report's
 # components end: its seas are lower than they are called, and so are ours.
 LEAST_ENERGY = 0.4
+LOWER = 0.05  # by more than this share of its height a sea is called lower
 
 
 @dataclass(frozen=True)
@@ -89,4 +91,21 @@ def in_sea(case: Case, sea: StudySea, realization: int) -> Case:
             "seaway.wave_heading_deg": sea.wave_heading_deg,
             "seaway.seed": round(1000.0 * sea.significant_wave_height) + realization + 1,
         }
+    )
+
+
+def low_seas(base: Case, heights: Sequence[float], steepness: float) -> str:
+    """A sentence on the seas whose components are lower than the sea is called; "" where none is by 5 %."""
+    low = []
+    for height in heights:
+        sea = study_sea(BOW_QUARTERING, height, steepness)
+        share = in_sea(base, sea, 0).seaway.components.variance / (height / 4.0) ** 2
+        if np.sqrt(share) < 1.0 - LOWER:
+            told = f"{100 * share:.0f} % of the energy of the sea of {height:g} m"
+            low.append(f"{told}, which is so {height * np.sqrt(share):.2f} m high")
+    if not low:
+        return ""
+    return (
+        f" The components end at 2.0 rad/s, as the report's do: at steepness {steepness:g} they hold"
+        f" {', and '.join(low)}."
     )
