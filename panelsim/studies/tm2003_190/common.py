@@ -94,18 +94,16 @@ def in_sea(case: Case, sea: StudySea, realization: int) -> Case:
     )
 
 
-def low_seas(base: Case, heights: Sequence[float], steepness: float) -> str:
+def low_seas(base: Case, heights: Sequence[float], *steepness: float) -> str:
     """A sentence on the seas whose components are lower than the sea is called; "" where none is by 5 %."""
     low = []
-    for height in heights:
-        sea = study_sea(BOW_QUARTERING, height, steepness)
-        share = in_sea(base, sea, 0).seaway.components.variance / (height / 4.0) ** 2
-        if np.sqrt(share) < 1.0 - LOWER:
-            told = f"{100 * share:.0f} % of the energy of the sea of {height:g} m"
-            low.append(f"{told}, which is so {height * np.sqrt(share):.2f} m high")
+    for one in steepness:
+        for height in heights:
+            components = in_sea(base, study_sea(BOW_QUARTERING, height, one), 0).seaway.components
+            share = components.variance / (height / 4.0) ** 2
+            if np.sqrt(share) < 1.0 - LOWER:
+                told = f"H_s {height:g} m at steepness {one:g} has {100 * share:.0f} % of its energy"
+                low.append(f"{told} and is {height * np.sqrt(share):.2f} m high")
     if not low:
         return ""
-    return (
-        f" The components end at 2.0 rad/s, as the report's do: at steepness {steepness:g} they hold"
-        f" {', and '.join(low)}."
-    )
+    return f" Low seas are lower than called, as components end at 2.0 rad/s: {'; '.join(low)}."

@@ -182,7 +182,7 @@ class LinearNonlinear:
             "Linear and nonlinear runs in the same waves, medium mesh, 20 knots, step 0.2 s, at nominal"
             f" steepness {TYPICAL_STEEPNESS:g} and {LIMITING_STEEPNESS:g}. Differences are those of the"
             " nonlinear from the linear model."
-            + "".join(low_seas(self.base, self.scope.heights, steepness) for steepness in STEEPNESS.values()),
+            + low_seas(self.base, self.scope.heights, *STEEPNESS.values()),
             _body(studies, list(frequencies.values()), parts)
             + f"\n{ABOUT_HELD} Of {len(self._held['limiting'])} realizations.\n\n"
             + held_markdown({self._held[name][0].free.sea: found for name, found in stays.items()}),

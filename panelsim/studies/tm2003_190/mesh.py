@@ -149,7 +149,7 @@ class Mesh:
         off, elsewhere = 100 * frequencies.change[0, mode], 100 * frequencies.elsewhere[0, mode]
         return (
             f"at the frequencies of the waves themselves {found.mode} is {off:+.2g} % off there, first"
-            f" realization; {elsewhere:.0f} % of its variance is at others, where a linear ship has none"
+            f" realization; {elsewhere:.0f} % of its variance is at others, where linear ones have hardly any"
         )
 
 

@@ -152,10 +152,8 @@ def loads_in_words(sea: str, parts: LoadParts) -> str:
     left = [mode for mode in SLOW if DOF_NAMES[mode] not in made]
     if left:
         largest = parts.rms[:, left].max()
-        told.append(
-            f"no single load makes that of {_and([DOF_NAMES[mode] for mode in left])}: parts cancel, and"
-            f" answers to them are up to {largest:.2g} times the difference"
-        )
+        why = f"parts cancel, up to {largest:.2g} times the difference" if largest > 1.0 else "several add up"
+        told.append(f"no single load makes that of {_and([DOF_NAMES[mode] for mode in left])}: {why}")
     return f"at {sea} {', '.join(told)}"
 
 
