@@ -15,7 +15,7 @@ from panelsim.studies.run_store import RunStore, StoredRun
 from panelsim.studies.tm2003_190 import linear_nonlinear, reproduce
 from panelsim.studies.tm2003_190.common import Scope, base_case
 from panelsim.studies.tm2003_190.linear_nonlinear import LinearNonlinear
-from panelsim.studies.tm2003_190.load_parts import load_parts
+from panelsim.studies.tm2003_190.load_parts import answer_to, load_parts, pressure_parts
 from panelsim.studies.tm2003_190.page import anchor
 from panelsim.studies.tm2003_190.reproduce import Reproduction
 from panelsim.studies.tm2003_190.wave_frequencies import at_wave_frequencies
@@ -228,3 +228,9 @@ def test_parts_of_the_load_explain_the_difference_of_the_models(made: tuple[Repr
     assert np.all(found.missed < 0.25), found.missed
     # Covariances of the parts add up to that of their sum, 1 less what is missed.
     np.testing.assert_allclose(found.shares.sum(axis=0), 1.0, atol=0.3)
+    # No covariance is more than the product of the standard deviations.
+    assert np.all(np.abs(found.shares) <= found.rms + 1e-9)
+    runs = [made[0].store.load(case) for case in (linear, nonlinear)]
+    apart = (runs[1].displacement - runs[0].displacement)[runs[1].after_ramp].std(axis=0)
+    waves = answer_to(nonlinear, runs[1].time, pressure_parts(nonlinear, runs[1])[0])
+    np.testing.assert_allclose(found.rms[0], waves[runs[1].after_ramp].std(axis=0) / apart, rtol=1e-9)

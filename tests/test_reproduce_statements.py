@@ -266,6 +266,15 @@ def test_a_verdict_within_its_band_says_so(
     assert abs(worst(study, "nonlinear", everywhere(study)).amount) == pytest.approx(0.1, abs=0.002)  # type: ignore[union-attr]
 
 
+@pytest.mark.parametrize(("scatter", "chance"), [(0.01, False), (0.04, True)])
+def test_an_exception_within_its_band_is_told(scatter: float, chance: bool) -> None:
+    """10 % with half widths of 2.5 and of 9.9 %."""
+    study = in_realizations((Dof.ROLL, (0.1 - scatter, 0.1, 0.1 + scatter)))
+    found = exceptions(study, "nonlinear", everywhere(study), 0.05)
+    assert found.startswith("beyond 5 %: roll at 150° (5 m, up to +10 ± ")
+    assert found.endswith("within the band of chance)") is chance
+
+
 def test_another_motion_than_the_worst_may_reach_over_the_threshold() -> None:
     study = in_realizations((Dof.ROLL, (0.045, 0.045, 0.045)), (Dof.YAW, (0.0, 0.03, 0.06)))
     figure = within(study, "nonlinear", everywhere(study), 0.05).figure

@@ -141,9 +141,13 @@ def where_it_counts(study: RmsStudy, level: str, threshold: float) -> str:
 
 
 def exceptions(study: RmsStudy, level: str, mask: Mask, threshold: float) -> str:
-    """Motions among these that differ by more than the threshold, with their range of heights."""
+    """Motions among these that differ by more than the threshold, with their range of heights.
+
+    And whether the band of the difference reaches below the threshold in all of these seas.
+    """
     row = study.levels.index(level)
     size = np.where(_failed(study, row), -1.0, _sizes(study, row, mask))
+    sure = size - np.nan_to_num(difference_band(study)[row]) > threshold
     found = []
     for heading in dict.fromkeys(sea.wave_heading_deg for sea in study.seas):
         for mode, name in enumerate(DOF_NAMES):
@@ -158,9 +162,9 @@ def exceptions(study: RmsStudy, level: str, mask: Mask, threshold: float) -> str
                 span = (
                     f"{min(heights):g} m" if len(heights) == 1 else f"{min(heights):g} to {max(heights):g} m"
                 )
-                found.append(
-                    f"{name} at {heading:g}° ({span}, up to {per_cent(largest.amount, largest.band)} %)"
-                )
+                most = f"up to {per_cent(largest.amount, largest.band)} %"
+                chance = "" if np.any(here & sure[:, mode]) else ", within the band of chance"
+                found.append(f"{name} at {heading:g}° ({span}, {most}{chance})")
     failed = np.asarray(_failed(study, row).any(axis=1))
     unknown = [sea.label for sea, no in zip(study.seas, failed, strict=True) if no]
     return "; ".join(
