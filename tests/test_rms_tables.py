@@ -122,6 +122,10 @@ def test_differences_have_their_paired_band_and_large_ones_are_written_out() -> 
     # Student's 4.30 over √3, times 0.04
     assert "+10 ± 9.9 |" in told
     assert "95 % band of the paired difference" in told
+    together = tuple(StudySea(sea.label, 30.0) for sea in SEAS)
+    rms[1, 0] = rms[0, 0]  # the sea without a difference has no band either
+    told = difference_markdown(RmsStudy("", "", study.levels, study.values, 0, together, rms))
+    assert "| +10 ± 9.9 |" in told
 
 
 def test_a_table_of_differences_has_a_row_a_level_and_heading_in_signed_per_cent() -> None:
