@@ -62,7 +62,7 @@ def test_a_run_that_failed_is_the_worst_of_all() -> None:
     study.rms[1, 0] = np.nan
     assert np.isnan(worst_difference(study, 1).amount)
     assert worst_difference(study, 1, 150.0).amount == pytest.approx(0.2, rel=1e-12)
-    assert "a run did not finish | not known" in difference_markdown(study)
+    assert "a run did not finish (low, 30°) | not known" in difference_markdown(study)
     study = made_up([1.0, 1.2], [0.1, 0.2], reference=0)
     study.rms[0, 1] = np.nan  # that of the reference
     assert np.isnan(worst_difference(study, 1).amount)
@@ -93,6 +93,39 @@ def test_markdown_has_the_band_of_several_realizations_only() -> None:
     )
     # pooled: the root of the mean of 0.81 and 1.21; pitch in degrees
     assert f"| {np.rad2deg(0.04) * np.sqrt(1.01):.4g} ± " in rms_markdown(twice)
+
+
+def test_csv_has_the_band_of_all_realizations_together() -> None:
+    study = made_up([1.0, 1.25], [0.1, 0.2], reference=0)
+    twice = RmsStudy(
+        study.title, study.varied, study.levels, study.values, 0, SEAS, study.rms * [[0.9], [1.1]]
+    )
+    rows = list(csv.DictReader(io.StringIO(rms_csv(twice))))
+    assert [row["realization"] for row in rows] == ["1", "2", "all"] * 4
+    assert rows[0]["heave_rms_band [m]"] == ""
+    pooled = np.sqrt(1.01)  # of 0.81 and 1.21
+    assert float(rows[2]["heave_rms [m]"]) == pytest.approx(pooled, rel=1e-12)
+    # Half of Student's 12.706 for two, times 0.2/1.01, of the RMS.
+    band = 0.5 * 12.7062 * 0.2 / 1.01
+    assert float(rows[2]["heave_rms_band [m]"]) == pytest.approx(band * pooled, rel=1e-5)
+    assert float(rows[2]["pitch_rms_band [deg]"]) == pytest.approx(np.rad2deg(0.04) * band * pooled, rel=1e-5)
+
+
+def test_differences_have_their_paired_band_and_large_ones_are_written_out() -> None:
+    study = made_up([1.0, 3.3], [0.1, 0.2], reference=0)
+    assert "| +230 |" in difference_markdown(study)
+    assert "e+0" not in difference_markdown(study)
+    assert "±" not in difference_markdown(study)
+    rms = np.repeat(study.rms, 3, axis=2)
+    rms[1, 1, :, 2] = 2.0 * np.array([1.06, 1.10, 1.14])
+    told = difference_markdown(RmsStudy("", "", study.levels, study.values, 0, SEAS, rms))
+    # Student's 4.30 over √3, times 0.04
+    assert "+10 ± 9.9 |" in told
+    assert "95 % band of the paired difference" in told
+    together = tuple(StudySea(sea.label, 30.0) for sea in SEAS)
+    rms[1, 0] = rms[0, 0]  # the sea without a difference has no band either
+    told = difference_markdown(RmsStudy("", "", study.levels, study.values, 0, together, rms))
+    assert "| +10 ± 9.9 |" in told
 
 
 def test_a_table_of_differences_has_a_row_a_level_and_heading_in_signed_per_cent() -> None:

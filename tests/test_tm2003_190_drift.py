@@ -25,7 +25,7 @@ from panelsim.studies.tm2003_190.drift import (
 )
 from panelsim.studies.tm2003_190.kernel_speed import DIRECT, FILE, GRID, NUMPY, SINES, TABLES, KernelSpeed
 from panelsim.studies.tm2003_190.look_up import LookUpSurroundings
-from panelsim.studies.tm2003_190.statistics import SEA_STATE_7, SamplingStatistics, seed_scatter
+from panelsim.studies.tm2003_190.statistics import SEA_STATE_7, SamplingStatistics, _worst, seed_scatter
 
 FAR, NEAR = np.array([[0.0, 0.0], [-300.0, 400.0]]), np.array([[0.0, 0.0], [3.0, -4.0]])
 
@@ -230,3 +230,30 @@ def test_the_section_of_statistics(base: Case, tmp_path: Path, monkeypatch: pyte
     assert "∞" not in bow
     assert (tmp_path / "sampling.png").is_file()
     assert len(section.tables["sampling.csv"].splitlines()) == 1 + 6 * 4
+
+
+@pytest.mark.parametrize("model", ["linear", "nonlinear"])
+def test_a_run_that_failed_leaves_the_section_of_statistics(
+    model: str, base: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With the reference, which says what counts, the sea's row is unknown."""
+    monkeypatch.setattr(SamplingStatistics, "_jitter", lambda self: "")
+    study = SamplingStatistics(base, quick=True)
+    store = MadeUpRuns(base)
+    failing = study.plan.case(["linear", "nonlinear"].index(model), 0, 1)
+    monkeypatch.setattr(store, "failure", lambda case: "made to fail" if case == failing else None)
+    section = study.section(store, tmp_path)  # type: ignore[arg-type]
+    assert len(section.failures) == 1
+    row = next(line for line in section.body.splitlines() if line.startswith(f"| {study.plan.seas[0].label}"))
+    cells = row.split(" | ")
+    assert cells[3] == "–"  # of the nonlinear seeds, or of anything where nothing counts
+    if model == "linear":
+        assert row == f"| {study.plan.seas[0].label}{9 * ' | –'} |"
+    else:
+        assert "–" not in cells[1:3]
+
+
+def test_the_worst_band_is_of_motions_that_count() -> None:
+    values, major = np.array([1.0, 9.0, 2.0, -3.0, 0.0, 0.0]), np.array([1, 0, 1, 1, 1, 1], dtype=bool)
+    assert _worst(values, major) == 2.0
+    assert np.isnan(_worst(values, np.zeros(6, dtype=bool)))

@@ -7,27 +7,44 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from panelsim.conventions import DOF_NAMES, FloatArray
+from panelsim.results.difference_band import difference_band
 from panelsim.results.rms_study import CONFIDENCE, RmsStudy
 from panelsim.results.statistics import display_unit
-from panelsim.results.verdicts import words, worst_difference
+from panelsim.results.verdicts import per_cent, words, worst_difference
 
 SEA_COLUMNS = ("sea", "wave_heading [deg]", "significant_wave_height [m]", "peak_period [s]")
 
 
 def rms_csv(study: RmsStudy) -> str:
-    """CSV text with a row a level, sea and realization: RMS in m and degrees, empty where a run failed."""
+    """CSV text with a row a level, sea and realization: RMS in m and degrees, empty where a run failed.
+
+    Where there are several realizations a row "all" follows them: the RMS of all together, with the half
+    width of its confidence band.
+    """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    heads = [f"{name}_rms [{display_unit(name)[0]}]" for name in DOF_NAMES]
+    units = [display_unit(name)[0] for name in DOF_NAMES]
+    heads = [
+        f"{name}_rms{of} [{unit}]"
+        for of in ("", "_band")
+        for name, unit in zip(DOF_NAMES, units, strict=True)
+    ]
     writer.writerow(["level", study.varied, *SEA_COLUMNS, "realization", *heads])
-    shown = display_rms(study.rms)
-    for level, sea, realization in np.ndindex(shown.shape[:3]):
+    shown, pooled = display_rms(study.rms), display_rms(study.pooled)
+    band = study.band * pooled
+    for level, sea in np.ndindex(pooled.shape[:2]):
         met = study.seas[sea]
         of_sea = (met.label, met.wave_heading_deg, met.significant_wave_height, met.peak_period)
-        cells = ("" if np.isnan(value) else repr(float(value)) for value in shown[level, sea, realization])
-        value = repr(float(study.values[level]))
-        writer.writerow([study.levels[level], value, *of_sea, realization + 1, *cells])
+        of_row = (study.levels[level], repr(float(study.values[level])), *of_sea)
+        for realization, values in enumerate(shown[level, sea], start=1):
+            writer.writerow([*of_row, realization, *_csv_cells(values), *[""] * 6])
+        if shown.shape[2] > 1:
+            writer.writerow([*of_row, "all", *_csv_cells(pooled[level, sea]), *_csv_cells(band[level, sea])])
     return text.getvalue()
+
+
+def _csv_cells(values: FloatArray) -> Iterator[str]:
+    return ("" if np.isnan(value) else repr(float(value)) for value in values)
 
 
 def rms_markdown(study: RmsStudy) -> str:
@@ -45,19 +62,20 @@ def rms_markdown(study: RmsStudy) -> str:
 def difference_markdown(study: RmsStudy) -> str:
     """Markdown with a row a level and wave heading: the largest differences of the seas from there.
 
-    In per cent of the reference, signed, by mode; then the worst of all with its sea, and what that is
-    called. A dash stands for a mode that is minor in all of the seas.
+    In per cent of the reference, signed, by mode, with the band of the difference if it is known; then the
+    worst of all with its sea, and what that is called. A dash stands for a mode that is minor in all of the
+    seas.
     """
     headings = list(dict.fromkeys(sea.wave_heading_deg for sea in study.seas))
     rows = []
     for level in range(len(study.levels)):
         for heading in headings if level != study.reference else ():
             worst = worst_difference(study, level, heading)
-            told = "a run did not finish" if np.isnan(worst.amount) else worst.told
-            cells = [_per_cent(value) for value in _largest(study, level, heading)]
-            rows.append([study.levels[level], f"{heading:g}", *cells, told, words(worst.amount)])
+            cells = [per_cent(value, half) for value, half in _largest(study, level, heading)]
+            rows.append([study.levels[level], f"{heading:g}", *cells, worst.told, words(worst.amount)])
     heads = ["level", "wave heading [deg]", *(f"{name} [%]" for name in DOF_NAMES), "worst", "this is"]
-    return markdown_table(heads, rows, text_columns=1) + f"\nAgainst {study.levels[study.reference]}.\n"
+    note = "" if study.rms.shape[2] < 2 else f" ±: {100.0 * CONFIDENCE:g} % band of the paired difference."
+    return markdown_table(heads, rows, text_columns=1) + f"\nAgainst {study.levels[study.reference]}.{note}\n"
 
 
 def markdown_table(heads: Sequence[str], rows: Iterable[Sequence[str]], *, text_columns: int) -> str:
@@ -71,19 +89,16 @@ def display_rms(rms: FloatArray) -> FloatArray:
     return np.asarray(rms * np.array([display_unit(name)[1] for name in DOF_NAMES]))
 
 
-def _largest(study: RmsStudy, level: int, heading: float) -> Iterator[float]:
-    """Of each mode the largest difference in the seas from a heading; NaN where it is minor in all."""
+def _largest(study: RmsStudy, level: int, heading: float) -> Iterator[tuple[float, float]]:
+    """Of each mode the largest difference in the seas from a heading, and its band; NaN where none counts."""
     chosen = [i for i, sea in enumerate(study.seas) if sea.wave_heading_deg == heading]
-    for values in study.difference[level, chosen].T:
-        known = values[~np.isnan(values)]
-        yield float(known[np.argmax(np.abs(known))]) if len(known) else np.nan
+    bands = difference_band(study)[level, chosen]
+    for values, halves in zip(study.difference[level, chosen].T, bands.T, strict=True):
+        at = int(np.argmax(np.where(np.isnan(values), -1.0, np.abs(values))))
+        yield float(values[at]), float(halves[at])
 
 
 def _with_band(rms: FloatArray, band: FloatArray) -> Iterator[str]:
     for value, share in zip(rms, band, strict=True):
         told = "–" if np.isnan(value) else f"{value:.4g}"
         yield told if np.isnan(share) else f"{told} ± {share * value:.2g}"
-
-
-def _per_cent(value: float) -> str:
-    return "–" if np.isnan(value) else f"{100.0 * value:+.2g}"

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from panelsim.conventions import DOF_NAMES
+from panelsim.results.difference_band import difference_band
 from panelsim.results.rms_study import RmsStudy, StudySea
 
 # Differences of RMS, minor modes left out. The classes overlap: 3 % is slight, of little influence and
@@ -31,18 +32,35 @@ def words(difference: float) -> str:
     return ", ".join(word for word, true in holds.items() if true)
 
 
+def per_cent(difference: float, band: float = np.nan) -> str:
+    """A signed difference in per cent, with the half width of its band where that is known; – for NaN."""
+    if np.isnan(difference):
+        return "–"
+    amount, half = 100.0 * difference, 100.0 * band
+    told = f"{amount:+.0f}" if abs(amount) >= 99.5 else f"{amount:+.2g}"
+    if np.isnan(half):
+        return told
+    return f"{told} ± {half:.0f}" if half >= 99.5 else f"{told} ± {half:.2g}"
+
+
 @dataclass(frozen=True)
 class WorstDifference:
-    """The largest difference of a level from the reference, signed; in which sea and mode."""
+    """The largest difference of a level from the reference, signed; in which sea and mode.
+
+    `band` is the half width of its 95 % band, NaN where there is one realization.
+    """
 
     amount: float
     sea: StudySea
     mode: str
+    band: float = np.nan
 
     @property
     def told(self) -> str:
-        """The difference in per cent, with its mode and sea."""
-        return f"{100.0 * self.amount:+.2g} % in {self.mode} ({self.sea.label})"
+        """The difference in per cent, with its band, mode and sea; or that a run did not finish."""
+        if np.isnan(self.amount):
+            return f"a run did not finish ({self.sea.label})"
+        return f"{per_cent(self.amount, self.band)} % in {self.mode} ({self.sea.label})"
 
 
 def worst_difference(study: RmsStudy, level: int, wave_heading_deg: float | None = None) -> WorstDifference:
@@ -60,4 +78,9 @@ def worst_difference(study: RmsStudy, level: int, wave_heading_deg: float | None
     size = np.where(failed, np.inf, np.nan_to_num(np.abs(study.difference[level]), nan=-1.0))[chosen]
     row, mode = np.unravel_index(int(np.argmax(size)), size.shape)
     sea = chosen[int(row)]
-    return WorstDifference(float(study.difference[level, sea, mode]), study.seas[sea], DOF_NAMES[int(mode)])
+    return WorstDifference(
+        float(study.difference[level, sea, mode]),
+        study.seas[sea],
+        DOF_NAMES[int(mode)],
+        float(difference_band(study)[level, sea, mode]),
+    )

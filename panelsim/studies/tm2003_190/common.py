@@ -1,5 +1,6 @@
 """What the studies of TM 2003-190 section 8 share: the ship, the seas and how much of them is run."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,6 +20,7 @@ TYPICAL_STEEPNESS = 0.021  # section 8.3
 # At the limiting steepness half of the energy of a sea of 1 m is above the 2.0 rad/s where the report's
 # components end: its seas are lower than they are called, and so are ours.
 LEAST_ENERGY = 0.4
+LOWER = 0.05  # by more than this share of its height a sea is called lower
 
 
 @dataclass(frozen=True)
@@ -90,3 +92,18 @@ def in_sea(case: Case, sea: StudySea, realization: int) -> Case:
             "seaway.seed": round(1000.0 * sea.significant_wave_height) + realization + 1,
         }
     )
+
+
+def low_seas(base: Case, heights: Sequence[float], *steepness: float) -> str:
+    """A sentence on the seas whose components are lower than the sea is called; "" where none is by 5 %."""
+    low = []
+    for one in steepness:
+        for height in heights:
+            components = in_sea(base, study_sea(BOW_QUARTERING, height, one), 0).seaway.components
+            share = components.variance / (height / 4.0) ** 2
+            if np.sqrt(share) < 1.0 - LOWER:
+                told = f"H_s {height:g} m at steepness {one:g} has {100 * share:.0f} % of its energy"
+                low.append(f"{told} and is {height * np.sqrt(share):.2f} m high")
+    if not low:
+        return ""
+    return f" Low seas are lower than called, as components end at 2.0 rad/s: {'; '.join(low)}."

@@ -5,9 +5,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from panelsim.conventions import DOF_NAMES
+from panelsim.conventions import DOF_NAMES, FloatArray
+from panelsim.results.difference_band import difference_band
 from panelsim.results.rms_study import RmsStudy
-from panelsim.results.verdicts import WorstDifference
+from panelsim.results.verdicts import WorstDifference, per_cent
 
 Mask = NDArray[np.bool_]  # (S, 6): which modes in which seas
 
@@ -49,14 +50,9 @@ def worst(study: RmsStudy, level: str, mask: Mask) -> WorstDifference | None:
     Its amount is NaN where a run did not go to its end: then nothing is known of the sea.
     """
     row = study.levels.index(level)
-    failed = mask & (np.isnan(study.pooled[row]) | np.isnan(study.pooled[study.reference]))
-    known = np.where(mask, np.nan_to_num(np.abs(study.difference[row]), nan=-1.0), -1.0)
-    size = np.where(failed, np.inf, known)
-    sea, mode = np.unravel_index(int(np.argmax(size)), size.shape)
-    if size[sea, mode] < 0.0:
-        return None
-    amount = np.nan if failed[sea, mode] else study.difference[row, sea, mode]
-    return WorstDifference(float(amount), study.seas[sea], DOF_NAMES[int(mode)])
+    size = _sizes(study, row, mask)
+    sea, mode = (int(index) for index in np.unravel_index(int(np.argmax(size)), size.shape))
+    return None if size[sea, mode] < 0.0 else _at(study, row, sea, mode)
 
 
 def within(study: RmsStudy, level: str, mask: Mask, most: float, name: str = "") -> Finding:
@@ -65,7 +61,8 @@ def within(study: RmsStudy, level: str, mask: Mask, most: float, name: str = "")
     if found is None:
         return Finding(False, f"{name}no motion that counts")
     holds = bool(abs(found.amount) <= most)
-    return Finding(holds, f"{name}{told(found)}, {'≤' if holds else 'not ≤'} {100 * most:g} %")
+    bound = f"{'≤' if holds else 'not ≤'} {100 * most:g} %"
+    return Finding(holds, f"{name}{found.told}, {bound}{by_chance(study, level, mask, most)}")
 
 
 def beyond(study: RmsStudy, level: str, mask: Mask, least: float, name: str = "") -> Finding:
@@ -74,7 +71,48 @@ def beyond(study: RmsStudy, level: str, mask: Mask, least: float, name: str = ""
     if found is None:
         return Finding(False, f"{name}no motion that counts")
     holds = bool(abs(found.amount) > least)
-    return Finding(holds, f"{name}{told(found)}, {'>' if holds else 'not >'} {100 * least:g} %")
+    bound = f"{'>' if holds else 'not >'} {100 * least:g} %"
+    return Finding(holds, f"{name}{found.told}, {bound}{by_chance(study, level, mask, least)}")
+
+
+def by_chance(study: RmsStudy, level: str, mask: Mask, threshold: float) -> str:
+    """That a verdict on a threshold lies within the band of chance, and by which motion; "" if it does not.
+
+    A difference beyond the threshold is sure if one is with the whole of its band; that all are within it, if
+    no band reaches over it.
+    """
+    row = study.levels.index(level)
+    size = _sizes(study, row, mask)
+    half = np.nan_to_num(difference_band(study)[row])  # of one realization nothing is known
+    half[size < 0.0] = 0.0
+    if np.any(size - half > threshold) or not np.any(size + half > threshold):
+        return ""
+    sea, mode = (int(index) for index in np.unravel_index(int(np.argmax(size)), size.shape))
+    if size[sea, mode] + half[sea, mode] > threshold:
+        return " (within the band of chance)"
+    sea, mode = (int(index) for index in np.unravel_index(int(np.argmax(size + half)), size.shape))
+    return f" (within the band of chance, which reaches over it: {_at(study, row, sea, mode).told})"
+
+
+def _sizes(study: RmsStudy, row: int, mask: Mask) -> FloatArray:
+    """Size of the differences among these (S, 6): infinite where a run failed, -1 where none counts."""
+    known = np.where(mask, np.nan_to_num(np.abs(study.difference[row]), nan=-1.0), -1.0)
+    return np.where(mask & _failed(study, row), np.inf, known)
+
+
+def _failed(study: RmsStudy, row: int) -> Mask:
+    """Where a run of the level or of the reference did not go to its end (S, 6)."""
+    return np.asarray(np.isnan(study.pooled[row]) | np.isnan(study.pooled[study.reference]))
+
+
+def _at(study: RmsStudy, row: int, sea: int, mode: int) -> WorstDifference:
+    """The difference of one mode in one sea."""
+    return WorstDifference(
+        float(study.difference[row, sea, mode]),
+        study.seas[sea],
+        DOF_NAMES[mode],
+        float(difference_band(study)[row, sea, mode]),
+    )
 
 
 def both(*halves: Finding) -> Finding:
@@ -85,24 +123,31 @@ def both(*halves: Finding) -> Finding:
 def where_it_counts(study: RmsStudy, level: str, threshold: float) -> str:
     """From which height on a difference stays below the threshold, and how much of it a figure would show.
 
-    The latter is the difference over the largest RMS of the mode in the seas from the same heading: what a
-    reader of the report's figures, which go from 0 to 10 m, can see.
+    A sea in which a run failed is not known to stay below. What a figure shows is the difference over the
+    largest RMS of the mode in the seas from the same heading: what a reader of the report's figures, which go
+    from 0 to 10 m, can see.
     """
     row = study.levels.index(level)
     heights = [sea.significant_wave_height or np.nan for sea in study.seas]
-    size = np.nan_to_num(np.abs(study.difference[row]), nan=0.0).max(axis=1)
+    size = _sizes(study, row, everywhere(study)).max(axis=1)
     high = [height for height, worst_there in zip(heights, size, strict=True) if worst_there > threshold]
     if not high:
         return ""
     higher = [height for height in heights if height > max(high)]
     bound = f"none above {100 * threshold:g} % in seas of {min(higher):g} m and more" if higher else ""
-    seen = f"on the axes of the report's figures it is {100.0 * _largest_seen(study, row):.2g} %"
+    largest = _largest_seen(study, row)
+    seen = "" if np.isnan(largest) else f"on the axes of the report's figures it is {100.0 * largest:.2g} %"
     return "; ".join(part for part in (bound, seen) if part)
 
 
 def exceptions(study: RmsStudy, level: str, mask: Mask, threshold: float) -> str:
-    """Motions among these that differ by more than the threshold, with their range of heights."""
-    size = np.where(mask, np.nan_to_num(np.abs(study.difference[study.levels.index(level)]), nan=0.0), 0.0)
+    """Motions among these that differ by more than the threshold, with their range of heights.
+
+    And whether the band of the difference reaches below the threshold in all of these seas.
+    """
+    row = study.levels.index(level)
+    size = np.where(_failed(study, row), -1.0, _sizes(study, row, mask))
+    sure = size - np.nan_to_num(difference_band(study)[row]) > threshold
     found = []
     for heading in dict.fromkeys(sea.wave_heading_deg for sea in study.seas):
         for mode, name in enumerate(DOF_NAMES):
@@ -113,27 +158,33 @@ def exceptions(study: RmsStudy, level: str, mask: Mask, threshold: float) -> str
                 if beyond_it
             ]
             if heights:
+                largest = _at(study, row, int(np.argmax(np.where(here, size[:, mode], -1.0))), mode)
                 span = (
                     f"{min(heights):g} m" if len(heights) == 1 else f"{min(heights):g} to {max(heights):g} m"
                 )
-                found.append(f"{name} at {heading:g}° ({span}, up to {100 * size[here, mode].max():.0f} %)")
-    return f"beyond {100 * threshold:g} %: {', '.join(found)}" if found else ""
+                most = f"up to {per_cent(largest.amount, largest.band)} %"
+                chance = "" if np.any(here & sure[:, mode]) else ", within the band of chance"
+                found.append(f"{name} at {heading:g}° ({span}, {most}{chance})")
+    failed = np.asarray(_failed(study, row).any(axis=1))
+    unknown = [sea.label for sea, no in zip(study.seas, failed, strict=True) if no]
+    return "; ".join(
+        f"{told} {', '.join(names)}"
+        for told, names in ((f"beyond {100 * threshold:g} %:", found), ("not known:", unknown))
+        if names
+    )
 
 
 def _largest_seen(study: RmsStudy, row: int) -> float:
-    """The largest change of RMS of a major mode, over the largest RMS of the mode from that heading."""
-    change = np.where(study.major, np.abs(study.pooled[row] - study.pooled[study.reference]), np.nan)
-    shares = []
+    """The largest change of RMS of a major mode, over the largest RMS of the mode from that heading.
+
+    Of the seas in which all runs finished; NaN where there are none.
+    """
+    known = ~_failed(study, row).any(axis=1)
+    change = np.where(study.major, np.abs(study.pooled[row] - study.pooled[study.reference]), 0.0)
+    shares = [np.nan]
     for heading in {sea.wave_heading_deg for sea in study.seas}:
-        here = from_heading(study, heading)[:, 0]
-        shares.append(change[here] / np.nanmax(study.pooled[study.reference][here], axis=0))
-    return float(np.nanmax(np.concatenate(shares)))
-
-
-def told(found: WorstDifference) -> str:
-    """The difference in per cent, with its mode and sea; or that a run did not finish."""
-    if np.isnan(found.amount):
-        return f"a run did not finish ({found.sea.label})"
-    per_cent = 100.0 * found.amount
-    figure = f"{per_cent:+.0f}" if abs(per_cent) >= 100.0 else f"{per_cent:+.2g}"
-    return f"{figure} % in {found.mode} ({found.sea.label})"
+        here = known & from_heading(study, heading)[:, 0]
+        if here.any():
+            largest = study.pooled[study.reference][here].max(axis=0)
+            shares.append(float(np.max(change[here] / largest)))
+    return float(np.fmax.reduce(shares))

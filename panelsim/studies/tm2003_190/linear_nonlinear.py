@@ -20,7 +20,16 @@ from panelsim.studies.tm2003_190.common import (
     STERN_QUARTERING,
     TYPICAL_STEEPNESS,
     Scope,
+    low_seas,
     study_seas,
+)
+from panelsim.studies.tm2003_190.held_runs import (
+    Held,
+    held,
+    held_failures,
+    held_in_words,
+    held_markdown,
+    what_stays,
 )
 from panelsim.studies.tm2003_190.judging import (
     beyond,
@@ -44,6 +53,7 @@ from panelsim.studies.tm2003_190.model_causes import (
 )
 from panelsim.studies.tm2003_190.rms_plan import Level, RmsPlan
 from panelsim.studies.tm2003_190.section import Section, Statement
+from panelsim.studies.tm2003_190.wave_frequencies import LEAST_SHARE
 from panelsim.view.rms_pictures import rms_over_height
 
 LINEAR, NONLINEAR = "linear", "nonlinear"
@@ -52,16 +62,24 @@ FIGURES = {"moderate": (14, 15), "limiting": (16, 17)}  # of the report, at 30°
 TAKEN_APART_AT = 7.0  # m
 ABOUT_FREQUENCIES = (
     "A linear ship moves at the frequencies at which she meets the waves. In bow quartering seas, first"
-    " realization: how much of the variance of the nonlinear motion is at others, and by how much its RMS at"
-    " those of the waves differs from the linear one."
+    " realization: how much of the variance of the nonlinear motion is at others, in brackets that of the"
+    " linear one as a control, and by how much the RMS at those of the waves differs from the linear one."
+    f" Waves with less than {100 * LEAST_SHARE:g} % of the energy do not count: differences of others fall"
+    " upon their frequencies, and with them all less would be at others."
 )
 ABOUT_PARTS = (
     "The nonlinear pressure load of a run, less its linear part, is taken apart into what waves do to a ship"
-    " at rest, what her motions do in calm water, and products of both; the linear ship answers each. Shares"
-    " of these answers in the variance of the difference between the models (covariances, which may be below"
-    " 0 where loads act against each other), and the RMS of what all of them miss. What moves the ship slowly"
-    " is a load of second order of the incident waves alone: neither here nor in the report have diffraction"
-    " and radiation such a load, which would act too."
+    " at rest, what her motions do in calm water, and products of both; the linear ship answers each. First"
+    " the RMS of the answer over that of the difference between the models, then its share in the variance"
+    " of that (a covariance, below 0 where loads act against each other). Where answers are larger than the"
+    " difference they cancel, and a share is no cause. The last row is the RMS of what all of them miss."
+    " All loads are of incident waves and buoyancy: neither here nor in the report have diffraction and"
+    " radiation nonlinear loads, which would act too."
+)
+ABOUT_HELD = (
+    "The test of it: heave and pitch held by stiff springs in both models, and how much of the variance of"
+    " the difference between them stays. Near 0 means that heave and pitch make it, 100 or more that they do"
+    " not."
 )
 ROLL_FROM = 3.0  # m: the report excepts roll in bow quartering seas above it
 
@@ -96,7 +114,9 @@ class LinearNonlinear:
 
     @property
     def cases(self) -> Sequence[Case]:
-        return [case for plan in self.plans.values() for case in plan.cases]
+        compared = [case for plan in self.plans.values() for case in plan.cases]
+        apart = [one.held for found in self._held.values() for one in found]
+        return compared + [case for pair in apart for case in (pair.linear, pair.nonlinear)]
 
     def is_measured(self, store: RunStore) -> bool:
         return all(parts_path(pair, store).is_file() for pair in self._taken_apart if pair.finished(store))
@@ -106,11 +126,14 @@ class LinearNonlinear:
             if not parts_path(pair, store).is_file():
                 store_parts(pair, store)
 
-    def _pairs(self, name: str, wave_heading_deg: float) -> list[Pair]:
-        """The first realization of each sea from a heading, in both models."""
+    def _pairs(self, name: str, wave_heading_deg: float, realization: int = 0) -> list[Pair]:
+        """A realization of each sea from a heading, in both models."""
         plan = self.plans[name]
         return [
-            Pair(f"{STEEPNESS[name]:g}, {sea.label}", plan.case(0, index, 0), plan.case(1, index, 0))
+            Pair(
+                f"{STEEPNESS[name]:g}, {sea.label}",
+                *(plan.case(model, index, realization) for model in range(2)),
+            )
             for index, sea in enumerate(plan.seas)
             if sea.wave_heading_deg == wave_heading_deg
         ]
@@ -118,20 +141,37 @@ class LinearNonlinear:
     @property
     def _taken_apart(self) -> list[Pair]:
         """The seas in which the nonlinear load is taken apart: one of each kind, about 7 m high."""
-        near = int(np.argmin(np.abs(np.array(self.scope.heights) - TAKEN_APART_AT)))
         return [
-            self._pairs("limiting", BOW_QUARTERING)[near],
-            self._pairs("moderate", BOW_QUARTERING)[near],
-            self._pairs("limiting", STERN_QUARTERING)[near],
+            self._pairs("limiting", BOW_QUARTERING)[self._near],
+            self._pairs("moderate", BOW_QUARTERING)[self._near],
+            self._pairs("limiting", STERN_QUARTERING)[self._near],
         ]
+
+    @property
+    def _near(self) -> int:
+        """The number of the height that is taken apart."""
+        return int(np.argmin(np.abs(np.array(self.scope.heights) - TAKEN_APART_AT)))
+
+    @cached_property
+    def _held(self) -> dict[str, list[Held]]:
+        """Realizations of the sea from the bow that is taken apart, free and held, by its steepness."""
+        count = min(self.scope.realizations, self.scope.model_realizations)
+        return {
+            name: [held(self._pairs(name, BOW_QUARTERING, i)[self._near]) for i in range(count)]
+            for name in STEEPNESS
+        }
 
     def section(self, store: RunStore, folder: Path) -> Section:
         studies = {name: plan.read(store) for name, plan in self.plans.items()}
         frequencies = {name: frequencies_of(self._pairs(name, BOW_QUARTERING), store) for name in studies}
         parts = stored_parts(self._taken_apart, store)
+        stays = {name: what_stays(found, store) for name, found in self._held.items()}
         why = {
-            name: cause_in_words(
-                found, {sea: one for sea, one in parts.items() if sea.startswith(f"{STEEPNESS[name]:g},")}
+            name: _because(
+                cause_in_words(
+                    found, {sea: one for sea, one in parts.items() if sea.startswith(f"{STEEPNESS[name]:g},")}
+                ),
+                held_in_words(stays[name]),
             )
             for name, found in frequencies.items()
         }
@@ -141,8 +181,11 @@ class LinearNonlinear:
             "When do nonlinear buoyancy and incident waves change the motions?",
             "Linear and nonlinear runs in the same waves, medium mesh, 20 knots, step 0.2 s, at nominal"
             f" steepness {TYPICAL_STEEPNESS:g} and {LIMITING_STEEPNESS:g}. Differences are those of the"
-            " nonlinear from the linear model.",
-            _body(studies, list(frequencies.values()), parts),
+            " nonlinear from the linear model."
+            + low_seas(self.base, self.scope.heights, *STEEPNESS.values()),
+            _body(studies, list(frequencies.values()), parts)
+            + f"\n{ABOUT_HELD} Of {len(self._held['limiting'])} realizations.\n\n"
+            + held_markdown({self._held[name][0].free.sea: found for name, found in stays.items()}),
             (
                 moderate_statement(studies["moderate"], why["moderate"]),
                 steep_statement(studies["limiting"], why["limiting"]),
@@ -163,7 +206,10 @@ class LinearNonlinear:
                 for name, plan in self.plans.items()
                 for row, level in enumerate(plan.levels)
             },
-            tuple(failure for study in studies.values() for failure in study.failures),
+            (
+                *(failure for study in studies.values() for failure in study.failures),
+                *(failure for found in self._held.values() for failure in held_failures(found, store)),
+            ),
         )
 
 

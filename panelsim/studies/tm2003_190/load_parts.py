@@ -30,15 +30,21 @@ _STILL = 1e-4  # rad/s: for the mean, at which speed terms divide by the frequen
 
 @dataclass(frozen=True)
 class LoadParts:
-    """Shares (5, 6) of `PARTS` in the variance of the difference of six motions; `missed` (6,) the rest.
+    """The answers of six motions to `PARTS`, beside the difference of the models.
 
-    A share is the covariance of the answer to a part with the difference, over the variance of that: they
-    may be below 0 and above 1, where parts act against each other. `missed` is the RMS of what all answers
-    together do not explain, over that of the difference.
+    `rms` (5, 6) is the RMS of each answer over that of the difference. `shares` (5, 6) is its covariance with
+    the difference over the variance of that: below 0 and above 1 where parts act against each other. `missed`
+    (6,) is the RMS of what all answers together do not explain, over that of the difference.
     """
 
+    rms: FloatArray
     shares: FloatArray
     missed: FloatArray
+
+    @property
+    def missed_alone(self) -> FloatArray:
+        """RMS (5, 6) of what each answer by itself does not explain, over that of the difference."""
+        return np.asarray(np.sqrt(np.maximum(1.0 - 2.0 * self.shares + self.rms**2, 0.0)))
 
 
 def load_parts(nonlinear: Case, linear: Case, store: RunStore) -> LoadParts:
@@ -48,16 +54,20 @@ def load_parts(nonlinear: Case, linear: Case, store: RunStore) -> LoadParts:
     """
     run, beside = store.load(nonlinear), store.load(linear)
     after = run.after_ramp
-    answers = [_answer(nonlinear, run.time, part)[after] for part in _parts(nonlinear, run)]
+    answers = np.array(
+        [answer_to(nonlinear, run.time, part)[after] for part in pressure_parts(nonlinear, run)]
+    )
     difference = (run.displacement - beside.displacement)[after]
     difference = difference - difference.mean(axis=0)
     variance = np.mean(difference**2, axis=0)
-    shares = np.array([np.mean(answer * difference, axis=0) for answer in answers]) / variance
-    left = (np.sum(answers, axis=0) - difference).std(axis=0)
-    return LoadParts(shares, left / np.sqrt(variance))
+    return LoadParts(
+        answers.std(axis=1) / np.sqrt(variance),
+        np.mean(answers * difference, axis=1) / variance,
+        (answers.sum(axis=0) - difference).std(axis=0) / np.sqrt(variance),
+    )
 
 
-def _parts(case: Case, run: StoredRun) -> list[FloatArray]:
+def pressure_parts(case: Case, run: StoredRun) -> list[FloatArray]:
     """Nonlinear pressure loads (T, 6) of each of `PARTS` [N, N m]."""
     waves, speed, ship = case.seaway.components, case.speed, case.ship
     surface = WettedSurface(
@@ -94,7 +104,7 @@ def _parts(case: Case, run: StoredRun) -> list[FloatArray]:
     return [*parts, whole - np.sum(parts, axis=0)]
 
 
-def _answer(case: Case, time: FloatArray, load: FloatArray) -> FloatArray:
+def answer_to(case: Case, time: FloatArray, load: FloatArray) -> FloatArray:
     """Motions (T, 6) of the linear ship, at rest before, under a load (T, 6)."""
     count = 2 * len(time)  # what she does at the end of the record must not come round to its beginning
     frequency = 2.0 * np.pi * np.fft.rfftfreq(count, time[1] - time[0])

@@ -18,6 +18,7 @@ from panelsim.studies.tm2003_190.common import (
     LIMITING_STEEPNESS,
     STERN_QUARTERING,
     Scope,
+    low_seas,
     study_seas,
 )
 from panelsim.studies.tm2003_190.judging import (
@@ -25,8 +26,8 @@ from panelsim.studies.tm2003_190.judging import (
     against,
     beyond,
     both,
+    by_chance,
     everywhere,
-    told,
     where_it_counts,
     within,
     worst,
@@ -88,7 +89,8 @@ class Mesh:
             f"Nonlinear runs at 20 knots, nominal steepness {LIMITING_STEEPNESS:g}, step 0.2 s, panels of"
             " 5, 2.5 and 1 m². Cut panels: the pressure at corners and centres of what is under water, the"
             " default here. Whole panels: as in the report, wet or dry by their centres, the pressure there."
-            " The reference is the fine mesh of cut panels; the statements compare meshes of one kind.",
+            " The reference is the fine mesh of cut panels; the statements compare meshes of one kind."
+            + low_seas(self.base, self.scope.heights, LIMITING_STEEPNESS),
             "".join(
                 f"### {wetting.capitalize()}\n\n{difference_markdown(study)}\n"
                 for wetting, study in studies.items()
@@ -130,9 +132,7 @@ class Mesh:
             return statement
         if wetting == WHOLE:
             cut = worst(against(studies[CUT], FINE), level, everywhere(own))
-            cause = (
-                "" if cut is None else f"with panels cut at the water the same mesh is at most {told(cut)}"
-            )
+            cause = "" if cut is None else f"with panels cut at the water the same mesh is at most {cut.told}"
         else:
             cause = self._second_order(found, level, store)
         return replace(statement, remark="; ".join(part for part in (statement.remark, cause) if part))
@@ -148,8 +148,8 @@ class Mesh:
             return ""
         off, elsewhere = 100 * frequencies.change[0, mode], 100 * frequencies.elsewhere[0, mode]
         return (
-            f"at the frequencies of the waves themselves {found.mode} is {off:+.2g} % off there;"
-            f" {elsewhere:.0f} % of its variance is at their differences and sums, of second order"
+            f"at the frequencies of the waves themselves {found.mode} is {off:+.2g} % off there, first"
+            f" realization; {elsewhere:.0f} % of its variance is at others, where linear ones have hardly any"
         )
 
 
@@ -180,4 +180,6 @@ def _one_figure(study: RmsStudy, finding: Finding) -> str:
     found = worst(study, COARSE, everywhere(study))
     if found is None or found.amount != found.amount:
         return finding.figure
-    return f"{told(found)}, {'' if finding.holds else 'not '}in {100 * IDENTICAL:g} to {100 * SLIGHT:g} %"
+    chance = [by_chance(study, COARSE, everywhere(study), bound) for bound in (IDENTICAL, SLIGHT)]
+    bounds = f"{'' if finding.holds else 'not '}in {100 * IDENTICAL:g} to {100 * SLIGHT:g} %"
+    return f"{found.told}, {bounds}{max(chance)}"

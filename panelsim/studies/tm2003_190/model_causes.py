@@ -17,6 +17,8 @@ from panelsim.studies.tm2003_190.wave_frequencies import at_wave_frequencies
 
 # The motions that come back slowly, which in bow quartering seas waves hardly excite at the own frequency.
 SLOW = (Dof.SURGE, Dof.SWAY, Dof.ROLL, Dof.YAW)
+# A load makes most of a difference if what it alone misses has half of the RMS, a quarter of the variance.
+ALONE = 0.5
 
 
 @dataclass(frozen=True)
@@ -39,25 +41,28 @@ class Pair:
 @dataclass(frozen=True)
 class Frequencies:
     """For each of some seas: share of the variance of the nonlinear run that is not at the waves' frequencies
-    (S, 6), and RMS at them of the nonlinear run over that of the linear one, less 1, (S, 6).
+    (S, 6), the same of the linear run as `control`, and RMS at them of the nonlinear run over that of the
+    linear one, less 1, (S, 6).
     """
 
     seas: tuple[str, ...]
     elsewhere: FloatArray
+    control: FloatArray
     change: FloatArray
 
 
 def frequencies_of(pairs: Sequence[Pair], store: RunStore) -> Frequencies:
     """Read the pairs of runs that are there to their end."""
-    elsewhere, change, names = [], [], []
+    elsewhere, control, change, names = [], [], [], []
     for pair in pairs:
         if not pair.finished(store):
             continue
         linear, nonlinear = (_at_waves(case, store) for case in (pair.linear, pair.nonlinear))
         elsewhere.append(1.0 - (nonlinear / store.load(pair.nonlinear).rms) ** 2)
+        control.append(1.0 - (linear / store.load(pair.linear).rms) ** 2)
         change.append(nonlinear / linear - 1.0)
         names.append(pair.sea)
-    return Frequencies(tuple(names), np.reshape(elsewhere, (-1, 6)), np.reshape(change, (-1, 6)))
+    return Frequencies(tuple(names), *(np.reshape(one, (-1, 6)) for one in (elsewhere, control, change)))
 
 
 def _at_waves(case: Case, store: RunStore) -> FloatArray:
@@ -67,23 +72,25 @@ def _at_waves(case: Case, store: RunStore) -> FloatArray:
 
 
 def frequencies_markdown(found: Frequencies) -> str:
-    """A table with a row a sea: the share elsewhere, and the change at the frequencies of the waves."""
+    """A table with a row a sea: the share elsewhere, (that of the linear run), the change at the waves'."""
     rows = [
         [
             sea,
             *(
-                f"{100 * share:.0f}, {100 * change:+.0f}"
-                for share, change in zip(shares, changes, strict=True)
+                f"{100 * share:.0f} ({100 * linear:.0f}), {100 * change:+.0f}"
+                for share, linear, change in zip(shares, controls, changes, strict=True)
             ),
         ]
-        for sea, shares, changes in zip(found.seas, found.elsewhere, found.change, strict=True)
+        for sea, shares, controls, changes in zip(
+            found.seas, found.elsewhere, found.control, found.change, strict=True
+        )
     ]
     return markdown_table(["sea", *(f"{name} [%]" for name in DOF_NAMES)], rows, text_columns=1)
 
 
 def parts_path(pair: Pair, store: RunStore) -> Path:
     """Where the parts of the load of a pair are kept."""
-    return store.folder / f"{run_key(pair.nonlinear)}.parts.json"
+    return store.folder / f"{run_key(pair.nonlinear)}.load_parts.json"
 
 
 def store_parts(pair: Pair, store: RunStore) -> None:
@@ -91,7 +98,7 @@ def store_parts(pair: Pair, store: RunStore) -> None:
     if not pair.finished(store):
         return
     found = load_parts(pair.nonlinear, pair.linear, store)
-    told = {"shares": found.shares.tolist(), "missed": found.missed.tolist()}
+    told = {name: value.tolist() for name, value in vars(found).items()}
     write_whole(parts_path(pair, store), json.dumps(told).encode())
 
 
@@ -102,17 +109,20 @@ def stored_parts(pairs: Sequence[Pair], store: RunStore) -> dict[str, LoadParts]
         path = parts_path(pair, store)
         if path.is_file():
             told = json.loads(path.read_text())
-            found[pair.sea] = LoadParts(np.array(told["shares"]), np.array(told["missed"]))
+            found[pair.sea] = LoadParts(**{name: np.array(value) for name, value in told.items()})
     return found
 
 
 def parts_markdown(found: Mapping[str, LoadParts]) -> str:
-    """A table with a row a sea and part, in per cent of the variance of the difference."""
+    """A table with a row a sea and part: RMS of its answer over that of the difference, and its share."""
     rows = []
     for sea, parts in found.items():
-        for name, shares in zip(PARTS, parts.shares, strict=True):
-            rows.append([sea, name, *(f"{100 * share:+.0f}" for share in shares)])
-        rows.append([sea, "not explained (RMS)", *(f"{100 * share:.0f}" for share in parts.missed)])
+        for name, sizes, shares in zip(PARTS, parts.rms, parts.shares, strict=True):
+            cells = (
+                f"{100 * size:.0f}, {100 * share:+.0f}" for size, share in zip(sizes, shares, strict=True)
+            )
+            rows.append([sea, name, *cells])
+        rows.append([sea, "explained by none (RMS)", *(f"{100 * share:.0f}" for share in parts.missed)])
     return markdown_table(["sea", "load", *(f"{name} [%]" for name in DOF_NAMES)], rows, text_columns=2)
 
 
@@ -120,16 +130,32 @@ def cause_in_words(frequencies: Frequencies, parts: Mapping[str, LoadParts]) -> 
     """What the tables say of surge, sway, roll and yaw in the seas of the frequencies."""
     if not frequencies.seas:
         return ""
-    share, change = frequencies.elsewhere[:, SLOW].mean(), np.median(np.abs(frequencies.change[:, SLOW]))
+    share, control = (100 * of[:, SLOW].mean() for of in (frequencies.elsewhere, frequencies.control))
+    change = np.median(np.abs(frequencies.change[:, SLOW]))
     told = (
-        f"of surge, sway, roll and yaw in bow quartering seas {100 * share:.0f} % of the variance on average"
-        " is at differences and sums of the waves' frequencies, while at those frequencies themselves the"
-        f" models differ by {100 * change:.0f} % (median)"
+        f"of surge, sway, roll and yaw in bow quartering seas {share:.0f} % of the variance on average"
+        f" ({control:.0f} % in the linear model) is not at the waves' frequencies, while at these the models"
+        f" differ by {100 * change:.0f} % (median)"
     )
-    return "; ".join([told, *(_largest_load(sea, one) for sea, one in parts.items())])
+    return "; ".join([told, *(loads_in_words(sea, one) for sea, one in parts.items())])
 
 
-def _largest_load(sea: str, parts: LoadParts) -> str:
-    """Which load has the largest share in the difference of these four motions."""
-    share = parts.shares[:, SLOW].mean(axis=1)
-    return f"the largest load is that of {PARTS[int(np.argmax(share))]} ({100 * share.max():.0f} %) at {sea}"
+def loads_in_words(sea: str, parts: LoadParts) -> str:
+    """By which single load each of these motions differs, and which by none; of one sea."""
+    by: dict[str, list[str]] = {}
+    for mode in SLOW:
+        alone = parts.missed_alone[:, mode]
+        if alone.min() <= ALONE:
+            by.setdefault(PARTS[int(np.argmin(alone))], []).append(DOF_NAMES[mode])
+    told = [f"the load of {load} alone makes most of the difference of {_and(of)}" for load, of in by.items()]
+    made = {name for of in by.values() for name in of}
+    left = [mode for mode in SLOW if DOF_NAMES[mode] not in made]
+    if left:
+        largest = parts.rms[:, left].max()
+        why = f"parts cancel, up to {largest:.2g} times the difference" if largest > 1.0 else "several add up"
+        told.append(f"no single load makes that of {_and([DOF_NAMES[mode] for mode in left])}: {why}")
+    return f"at {sea} {', '.join(told)}"
+
+
+def _and(names: Sequence[str]) -> str:
+    return " and ".join(part for part in (", ".join(names[:-1]), names[-1]) if part)

@@ -21,14 +21,17 @@ _THRESHOLDS = (
     "The words mean a difference of the RMS of a motion: *practically* or *effectively identical* ≤"
     f" {_IDENTICAL}, *slightly different* {_IDENTICAL} to {_SLIGHT}, *little influence* ≤ {_SLIGHT},"
     f" *noticeable* > {_NOTICEABLE}, *significant* > {_SIGNIFICANT}. Motions under {_MINOR} of the largest"
-    " rotation or translation of the same run are left out. One motion in one sea is enough to break a"
-    " sentence."
+    " rotation or translation of the reference in the same sea, all realizations together, are left out. One"
+    " motion in one sea is enough to break a sentence. In regular waves *negligible*, *very close* and"
+    f" *vanish* mean ≤ {_SLIGHT} of the amplitude at the frequency of the wave. ±: 95 % band of the paired"
+    " difference over realizations, none for a single one; a verdict that it reaches over is *within the band"
+    " of chance*."
 )
 
 
 @dataclass(frozen=True)
 class Making:
-    """How the page was made: `seeds` and `extent` in words, runs, and what they took."""
+    """How the page was made: `seeds` and `extent` in words, runs, and what they took without the page."""
 
     version: str
     machine: str
@@ -76,8 +79,8 @@ def _making(making: Making) -> str:
         f"`panelsim reproduce tm2003-190{' --quick' if making.extent == 'quick' else ''}`, panelsim"
         f" {making.version}, {making.runs} runs. {making.seeds} What is written here comes from stored runs"
         " alone; `--from-runs` makes the page again.\n\n"
-        f"Time: {_time(making.cpu_seconds)} of CPU in the runs, {_time(making.wall_seconds)} for the command,"
-        f" on {making.machine}.\n"
+        f"Time: {_time(making.cpu_seconds)} of CPU in the runs, {_time(making.wall_seconds)} by the clock to"
+        f" make them and to measure, in all sessions, without this page; on {making.machine}.\n"
     )
 
 

@@ -190,6 +190,7 @@ def domains_statement(runs: RegularRuns, transfer: ComplexArray, linear: Complex
     assert peak is not None
     holds = bool(abs(value) <= SLIGHT) and not np.isnan(transfer).any()
     size = np.nanmax(np.abs(np.nan_to_num(difference)), axis=(0, 2))
+    size[np.isnan(transfer).any(axis=(0, 2))] = np.inf  # of a run that failed nothing is known
     far = [ratio for ratio, most in zip(runs.length_ratio, size, strict=True) if most > SLIGHT]
     near = [ratio for ratio in runs.length_ratio if ratio > max(far, default=0.0)]
     return Statement(

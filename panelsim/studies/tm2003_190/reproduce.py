@@ -195,9 +195,10 @@ def _seeds(scope: Scope) -> str:
     heights = ", ".join(f"{height:g}" for height in scope.heights)
     return (
         f"Significant heights {heights} m, {scope.duration:g} s after a ramp of 60 s, realizations of each"
-        f" sea: {scope.realizations}, for linear against nonlinear {scope.model_realizations}; the seed is"
-        " 1000 times the height in metres plus the number of the realization, the same in all studies, so"
-        " that differences are none of sampling."
+        f" sea: {scope.realizations}, for linear against nonlinear {scope.model_realizations}. In these and"
+        " in stretching the seed is 1000 times the height in metres plus the number of the realization, the"
+        " same for whatever is compared, so that differences are none of sampling. Drift and cost have seeds"
+        " of their own."
     )
 
 

@@ -25,6 +25,7 @@ from panelsim.studies.tm2003_190.common import (
     LIMITING_STEEPNESS,
     QUICK,
     in_sea,
+    low_seas,
 )
 from panelsim.studies.tm2003_190.linear_nonlinear import LINEAR, NONLINEAR, LinearNonlinear
 from panelsim.studies.tm2003_190.rms_plan import RmsPlan
@@ -84,7 +85,8 @@ class SamplingStatistics:
             "How near is the RMS of one run to that of its sea, and how long or how many runs does it take?",
             f"{study.rms.shape[2]} runs of {self.duration / 60:g} minutes of each sea, nominal steepness"
             f" {LIMITING_STEEPNESS:g}, 20 knots, 19 components; beside them the band that theory gives for"
-            " linear motions in these components with random phases, and in the continuous spectrum.",
+            " linear motions in these components with random phases, and in the continuous spectrum."
+            + low_seas(self.base, (QUICK if self.quick else FULL).heights, LIMITING_STEEPNESS),
             self._body(study, waves, spectra, scatter) + self._jitter(),
             (),
             (
@@ -133,7 +135,7 @@ class SamplingStatistics:
                     sea.label,
                     *(_per_cent(_worst(band, major)) for band in bands),
                     *(_time(_worst(of_waves.run_length(band), major)) for band in BANDS),
-                    *(f"{_worst(of_waves.realizations(band, self.duration), major):.0f}" for band in BANDS),
+                    *(_count(_worst(of_waves.realizations(band, self.duration), major)) for band in BANDS),
                     _signed(of_waves.rms / of_spectrum.rms - 1.0, major),
                 ]
             )
@@ -253,12 +255,14 @@ def seed_scatter(study: RmsStudy, level: int) -> FloatArray:
 
 
 def _worst(values: FloatArray, major: np.ndarray) -> float:
-    """The largest of the modes that count; NaN where one of them is not known."""
-    return float(np.max(values[major]))
+    """The largest of the modes that count; NaN where one of them is not known, or none counts."""
+    return float(np.max(values[major])) if major.any() else np.nan
 
 
 def _signed(values: FloatArray, major: np.ndarray) -> str:
-    """The largest by size of the modes that count, in per cent, with its mode."""
+    """The largest by size of the modes that count, in per cent, with its mode; – where none counts."""
+    if not major.any():
+        return "–"
     size = np.where(major, np.abs(values), -1.0)
     mode = int(np.argmax(size))
     return f"{100 * values[mode]:+.2g} % in {DOF_NAMES[mode]}"
@@ -266,6 +270,10 @@ def _signed(values: FloatArray, major: np.ndarray) -> str:
 
 def _per_cent(share: float) -> str:
     return "–" if np.isnan(share) else f"{100 * share:.2g}"
+
+
+def _count(runs: float) -> str:
+    return "–" if np.isnan(runs) else f"{runs:.0f}"
 
 
 def _time(seconds: float) -> str:

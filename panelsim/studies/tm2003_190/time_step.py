@@ -18,6 +18,7 @@ from panelsim.studies.tm2003_190.common import (
     LIMITING_STEEPNESS,
     STERN_QUARTERING,
     Scope,
+    low_seas,
     study_seas,
 )
 from panelsim.studies.tm2003_190.judging import (
@@ -25,7 +26,6 @@ from panelsim.studies.tm2003_190.judging import (
     beyond,
     everywhere,
     from_heading,
-    told,
     where_it_counts,
     within,
     worst,
@@ -91,7 +91,8 @@ class TimeStep:
             "Time step (8.1)",
             "How long may a time step be?",
             f"Nonlinear runs on the medium mesh at 20 knots, nominal steepness {LIMITING_STEEPNESS:g}, steps"
-            f" of 0.1, 0.2 and 0.5 s with each scheme; the reference is rk4 at {REFERENCE_STEP:g} s.",
+            f" of 0.1, 0.2 and 0.5 s with each scheme; the reference is rk4 at {REFERENCE_STEP:g} s."
+            + low_seas(self.base, self.scope.heights, LIMITING_STEEPNESS),
             "".join(f"### {stepper}\n\n{difference_markdown(study)}\n" for stepper, study in studies.items()),
             tuple(one for stepper, study in studies.items() for one in statements(stepper, study)),
             tuple(pictures),
@@ -127,7 +128,7 @@ def statements(stepper: str, study: RmsStudy) -> tuple[Statement, Statement]:
         Statement(
             f"{stepper}: 0.5 s gives noticeable differences in bow quartering seas (8.1)",
             apart.holds,
-            apart.figure + ("" if stern is None else f"; in stern quartering seas {told(stern)}"),
+            apart.figure + ("" if stern is None else f"; in stern quartering seas {stern.told}"),
             where_it_counts(study, half, NOTICEABLE),
         ),
     )

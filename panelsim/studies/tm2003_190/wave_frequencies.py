@@ -12,7 +12,7 @@ from panelsim.studies.run_store import StoredRun
 
 # Waves with less of the energy are none: differences of others fall upon their frequencies of encounter,
 # which in the report's set-up are all but multiples of one.
-_LEAST = 1e-3
+LEAST_SHARE = 1e-3
 
 
 def at_wave_frequencies(run: StoredRun, waves: WaveComponents, speed: float, gravity: float) -> FloatArray:
@@ -23,7 +23,7 @@ def at_wave_frequencies(run: StoredRun, waves: WaveComponents, speed: float, gra
     """
     time = run.time[run.after_ramp]
     resolution = 2.0 * np.pi / (time[-1] - time[0])
-    energetic = waves.amplitude**2 >= _LEAST * 2.0 * waves.variance
+    energetic = waves.amplitude**2 >= LEAST_SHARE * 2.0 * waves.variance
     met = np.sort(np.abs(waves.encounter_frequency(speed, gravity)[energetic]))
     met = met[met > 0.5 * resolution]
     kept = met[np.insert(np.diff(met) >= resolution, 0, True)]
