@@ -60,6 +60,12 @@ class SamplingStatistics:
         return self.plan.cases
 
     @cached_property
+    def _lengths(self) -> dict[str, FloatArray]:
+        """Lengths (2, 6) [s] for the bands by the label of the sea: the search for one takes a while."""
+        found = ((sea.label, self._of_components(sea)) for sea in self.plan.seas)
+        return {label: np.array([waves.run_length(band) for band in BANDS]) for label, waves in found}
+
+    @cached_property
     def table(self) -> Response:
         """The ship at the speed of the study, from both headings."""
         return response(
@@ -132,7 +138,7 @@ class SamplingStatistics:
                 [
                     sea.label,
                     *(_per_cent(_worst(band, major)) for band in bands),
-                    *(_time(_worst(of_waves.run_length(band), major)) for band in BANDS),
+                    *(_time(_worst(length, major)) for length in self._lengths[sea.label]),
                     *(f"{_worst(of_waves.realizations(band, self.duration), major):.0f}" for band in BANDS),
                     _signed(of_waves.rms / of_spectrum.rms - 1.0, major),
                 ]
@@ -233,7 +239,7 @@ class SamplingStatistics:
                     scatter[LINEAR][i],
                     scatter[NONLINEAR][i],
                     spectra[i].band(self.duration),
-                    *(of_waves.run_length(band) for band in BANDS),
+                    *self._lengths[sea.label],
                     *(of_waves.realizations(band, self.duration) for band in BANDS),
                     of_waves.rms / spectra[i].rms - 1.0,
                 ]
