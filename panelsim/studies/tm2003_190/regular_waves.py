@@ -2,7 +2,7 @@
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -10,12 +10,12 @@ from pathlib import Path
 import numpy as np
 
 from panelsim.case import Case
-from panelsim.conventions import ComplexArray, Dof, FloatArray
+from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.results.rms_tables import markdown_table
 from panelsim.results.verdicts import IDENTICAL, SLIGHT
-from panelsim.ship.ship import Ship
 from panelsim.studies.run_store import RunStore
-from panelsim.studies.tm2003_190.excess_load import ExcessLoad, excess_load
+from panelsim.studies.tm2003_190.excess_answer import ExcessAnswer, excess_answer, transom_immersion
+from panelsim.studies.tm2003_190.excess_load import SECTIONS
 from panelsim.studies.tm2003_190.regular_runs import (
     MEASURED,
     MODE_NAMES,
@@ -77,6 +77,7 @@ class RegularWaves:
         measured = {name: runs.read(store) for name, runs in self.runs.items()}
         linear = self.runs[SINUSOIDAL].linear()
         stokes = replace(measured[SINUSOIDAL], transfer=self._common(measured[SINUSOIDAL].transfer))
+        causes = self._causes(store, measured[SINUSOIDAL], linear)
         unsettled = max(float(np.nanmax(found.unsettled, initial=0.0)) for found in measured.values())
         return Section(
             self.key,
@@ -88,10 +89,10 @@ class RegularWaves:
             f" {RAMP:g} s and {TRANSIENT + 0.5 * MEASURED:g} s more. Between the last two windows mean and"
             f" harmonics change by {unsettled:.1g} of the first harmonic at most. The report's axes are not"
             " told; here they are λ/L, heave over the wave amplitude and pitch over the wave slope k a.",
-            self._body(measured, linear),
+            self._body(measured, linear) + causes_table(self.runs[SINUSOIDAL], causes),
             (
                 stokes_statement(self.runs[STOKES], measured[STOKES], stokes, linear),
-                self._domains_statement(store, measured[SINUSOIDAL], linear),
+                self._domains_statement(measured[SINUSOIDAL], linear, causes),
             ),
             tuple(self._picture(folder, f, measured, linear) for f in range(len(FROUDE))),
             {"regular_waves.csv": _csv(self.runs, measured, linear)},
@@ -111,16 +112,39 @@ class RegularWaves:
         """Of the sinusoidal waves those of the steepness that the Stokes waves have."""
         return sinusoidal[:, :, -len(self.runs[STOKES].steepness) :]
 
-    def _domains_statement(self, store: RunStore, found: Measured, linear: ComplexArray) -> Statement:
-        """Close agreement of time and frequency domain, with the cause where there is none."""
+    def _domains_statement(
+        self, found: Measured, linear: ComplexArray, causes: Mapping[tuple[int, ...], ExcessAnswer]
+    ) -> Statement:
+        """Close agreement of time and frequency domain, with the causes where there is none."""
         runs = self.runs[SINUSOIDAL]
-        shown = runs.steepness.index(SHOWN)
-        statement = domains_statement(runs, found.transfer[:, :, shown], linear)
-        at = worst(relative_difference(found.transfer[:, :, shown], linear, linear))
-        if statement.holds or at is None:
+        statement = domains_statement(runs, found.transfer[:, :, self._shown], linear)
+        if statement.holds or not causes:
             return statement
-        excess = excess_load(store, runs.by_index[at[0], at[1], shown])
-        return replace(statement, remark=f"{statement.remark} {cause(excess, runs, found, linear, at)}")
+        told = [
+            f"{runs.told(at[:-1])}, {MODE_NAMES[at[-1]]} {100 * answer.run:+.2g} %: {answer.verdict}"
+            for at, answer in causes.items()
+        ]
+        at = worst(relative_difference(found.transfer[:, :, self._shown], linear, linear))
+        power = "" if at is None else growth_told(runs, found, linear, at)
+        remark = f"{statement.remark} The cause, solved for in the section: {'; '.join(told)}.{power}"
+        return replace(statement, remark=remark.strip())
+
+    @property
+    def _shown(self) -> int:
+        return self.runs[SINUSOIDAL].steepness.index(SHOWN)
+
+    def _causes(
+        self, store: RunStore, found: Measured, linear: ComplexArray
+    ) -> dict[tuple[int, ...], ExcessAnswer]:
+        """What makes the largest difference at each Froude number, if it is more than slight."""
+        runs, causes = self.runs[SINUSOIDAL], {}
+        difference = relative_difference(found.transfer[:, :, self._shown], linear, linear)
+        for f, of_speed in enumerate(difference):
+            at = worst(of_speed)
+            if at is not None and abs(of_speed[at]) > SLIGHT:
+                case = runs.by_index[f, at[0], self._shown]
+                causes[f, *at] = excess_answer(store, case, MODES[at[-1]])
+        return causes
 
     def _picture(
         self, folder: Path, f: int, measured: dict[str, Measured], linear: ComplexArray
@@ -203,43 +227,50 @@ def domains_statement(runs: RegularRuns, transfer: ComplexArray, linear: Complex
     )
 
 
-def cause(
-    excess: ExcessLoad, runs: RegularRuns, found: Measured, linear: ComplexArray, at: tuple[int, ...]
-) -> str:
-    """What makes the largest difference: where on the hull the load is not linear, and how it grows."""
-    mode = MODES[at[-1]]
-    share = excess.share(mode)
-    place = int(np.argmax(share))
-    middle = 0.5 * float(excess.stations[place] + excess.stations[place + 1])
-    told = (
-        f"There the pressure {'moment' if mode is Dof.PITCH else 'force'} is {100 * excess.size(mode):.2g} %"
-        f" off its"
-        f" linear part, and {100 * share[place]:.0f} % of that comes from the twentieth of the length about"
-        f" x = {middle:.0f} m"
-    )
-    if place == 0:
-        told += f", the transom, which calm water wets by {transom_immersion(runs.base.ship):.2f} m"
-    power = growth(runs, found.transfer[at[0], at[1], :, at[-1]] - linear[at[0], at[1], at[-1]])
-    if np.isfinite(power):
-        told += (
-            f". From H/λ 1/{1 / runs.steepness[0]:.0f} to 1/{1 / runs.steepness[1]:.0f} the transfer function"
-            f" departs as the {power:.1f}th power of the height: a smooth hull would give the second"
-        )
-    return told + "."
-
-
-def transom_immersion(ship: Ship) -> float:
-    """Depth [m] of the aftermost points of the hull below calm water."""
-    x, z = ship.vertices[:, 0], ship.vertices[:, 2]
-    return float(ship.waterline - z[x < x.min() + 1e-3 * ship.length].min())
-
-
 def growth(runs: RegularRuns, departure: ComplexArray) -> float:
     """Power of the steepness by which a departure (H,) grows between the two lowest waves; NaN for one."""
     if len(runs.steepness) < 2:
         return np.nan
     ratio = np.log(runs.steepness[1] / runs.steepness[0])
     return float(np.log(abs(departure[1]) / abs(departure[0])) / ratio)
+
+
+def growth_told(runs: RegularRuns, found: Measured, linear: ComplexArray, at: tuple[int, ...]) -> str:
+    """With which power of the height a transfer function departs from the linear one; empty for one height."""
+    power = growth(runs, found.transfer[at[0], at[1], :, at[-1]] - linear[at[0], at[1], at[-1]])
+    if not np.isfinite(power):
+        return ""
+    low, high = (_steep(steepness) for steepness in runs.steepness[:2])
+    return (
+        f" At the worst point the transfer function departs as the {power:.1f}th power of the height"
+        f" from H/λ {low} to {high}: a smooth hull would give the second."
+    )
+
+
+def causes_table(runs: RegularRuns, causes: Mapping[tuple[int, ...], ExcessAnswer]) -> str:
+    """The difference of a run from the frequency domain beside what the linear ship makes of its causes."""
+    if not causes:
+        return ""
+    rows = []
+    for at, answer in causes.items():
+        shares = (answer.run, answer.pressure, answer.stern, answer.displaced)
+        told = [f"{100 * share:+.2g}" for share in shares]
+        name = f"{runs.told(at[:-1])}, {MODE_NAMES[at[-1]]}"
+        rows.append([name, *told, f"{answer.surge:+.1f}", answer.verdict])
+    heads = (
+        *("", "run [%]", "pressure [%]", "of the stern [%]"),
+        *("pressure and diffraction [%]", "mean surge [m]", "cause"),
+    )
+    return (
+        "\n### The largest difference at each Froude number, H/λ 1/20\n\n"
+        + markdown_table(heads, rows, text_columns=1)
+        + "\nBy how much the amplitude is larger than the linear one. Run: in the nonlinear run. Pressure: of"
+        " the linear ship, when the part of the run's pressure load that is not linear is added to her load;"
+        f" of the stern: when that part of the aftermost {SECTIONS}th of the length alone is added. Its"
+        f" transom is wetted by {transom_immersion(runs.base.ship):.2f} m of calm water. The last figure has"
+        " all of the pressure, and the diffraction load met where the waves hold her on average against the"
+        " springs.\n"
+    )
 
 
 def _not_identical(runs: RegularRuns, difference: FloatArray) -> str:
