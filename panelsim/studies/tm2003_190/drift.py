@@ -145,7 +145,9 @@ class Drift:
             for key, cases in self.free.items()
             for seed, case in zip(self.seeds, cases, strict=False)
         }
-        named |= {f"{HELD}, {height:g} m, {model}": (case, True) for (height, model), case in self.held.items()}
+        named |= {
+            f"{HELD}, {height:g} m, {model}": (case, True) for (height, model), case in self.held.items()
+        }
         found = {
             name: store.failure(case) or (store.load(case).early_end if should_finish else None)
             for name, (case, should_finish) in named.items()
@@ -216,7 +218,9 @@ def _why_linear_drifts(found: Mapping[tuple[str, str], FloatArray], slow: tuple[
         " and pushes her like a constant force, in first order, by its phase on or back."
     )
     if (SLOW_LEFT_OUT, "linear") in found:
-        told += f" {SLOW_LEFT_OUT.capitalize()} the linear ship goes {_range(found[SLOW_LEFT_OUT, 'linear'])}."
+        told += (
+            f" {SLOW_LEFT_OUT.capitalize()} the linear ship goes {_range(found[SLOW_LEFT_OUT, 'linear'])}."
+        )
     between = [f"{_range(found[SHIFTED, model])} {model}" for model in MODELS if (SHIFTED, model) in found]
     if between:
         told += f" In components between those of the report's grid she goes {' and '.join(between)}."
@@ -271,7 +275,9 @@ def _table(runs: Mapping[Key, Sequence[StoredRun]]) -> str:
     for (kind, heading, model), of_seeds in runs.items():
         ends = np.array([run.displacement[-1, :2] for run in of_seeds]).reshape(-1, 2)
         columns = (np.linalg.norm(ends, axis=1), *ends.T)
-        shown = [", ".join(f"{value:{form}}" for value in of) for of, form in zip(columns, _FORMS, strict=True)]
+        shown = [
+            ", ".join(f"{value:{form}}" for value in of) for of, form in zip(columns, _FORMS, strict=True)
+        ]
         outcomes = dict.fromkeys(run.early_end or "finished" for run in of_seeds)
         rows.append([kind, f"{heading:g}", model, *shown, "; ".join(outcomes)])
     heads = ("", "wave heading [deg]", "model", "distance [m]", "surge [m]", "sway [m]", "outcome")
