@@ -53,7 +53,7 @@ def test_two_waves_apart_need_the_time_that_tells_them_apart() -> None:
 
 @pytest.mark.parametrize("wanted", [0.1, 0.05, 0.02])
 def test_no_longer_run_has_a_wider_band(wanted: float) -> None:
-    """Every crest of the beats of ten waves, which come each 13 to 60 s: a scan of all lengths, 0.2 s apart."""
+    """Every crest of the beats of ten waves, each 13 to 60 s: a scan of all lengths, 0.2 s apart."""
     frequency = np.array([0.31, 0.42, 0.55, 0.69, 0.84, 1.01, 1.19, 1.38, 1.6, 1.83])
     variance = np.stack([np.exp(-(((frequency - 0.8) / width) ** 2)) for width in (0.3, 0.6)], axis=1)
     error = SamplingError(("x", "y"), frequency, variance)

@@ -14,12 +14,12 @@ from panelsim.results.rms_study import RmsStudy
 from panelsim.studies.run_store import RunStore, StoredRun
 from panelsim.studies.tm2003_190 import kernel_speed, look_up
 from panelsim.studies.tm2003_190.common import base_case, in_sea
-from panelsim.studies.tm2003_190.drift import (
+from panelsim.studies.tm2003_190.drift import Drift
+from panelsim.studies.tm2003_190.drift_statements import (
     FREE,
     NO_SPRINGS,
     SHIFTED,
     SLOW_LEFT_OUT,
-    Drift,
     drift_statement,
     force_statement,
     powers,

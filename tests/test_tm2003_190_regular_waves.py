@@ -14,7 +14,8 @@ from panelsim.studies.case_history import case_history
 from panelsim.studies.run_store import StoredRun
 from panelsim.studies.tm2003_190.common import base_case
 from panelsim.studies.tm2003_190.excess_answer import ExcessAnswer, excess_answer, transom_immersion
-from panelsim.studies.tm2003_190.excess_load import ExcessLoad, excess_load
+from panelsim.studies.tm2003_190.excess_load import excess_load
+from panelsim.studies.tm2003_190.regular_causes import causes_table, growth, growth_told
 from panelsim.studies.tm2003_190.regular_runs import (
     MEASURED,
     Measured,
@@ -29,10 +30,7 @@ from panelsim.studies.tm2003_190.regular_waves import (
     STOKES,
     RegularWaves,
     _not_periodic,
-    causes_table,
     domains_statement,
-    growth,
-    growth_told,
     stokes_statement,
 )
 from panelsim.studies.tm2003_190.stretching import Stretching

@@ -78,7 +78,7 @@ class SamplingError:
         return self._band_and_sure(length, realizations)[0]
 
     def _band_and_sure(self, length: float, realizations: int = 1) -> tuple[FloatArray, FloatArray]:
-        """The band (K,), and the share (K,) Σ m²/(Σ m)² that sure amplitudes take from a scatter by chance."""
+        """The band (K,), and Σ m²/(Σ m)² (K,), which sure amplitudes take from the scatter."""
         moving = self.moving(length)
         total = moving.sum(axis=0)
         scatter = _spectral_scatter if self.spectral else variance_scatter

@@ -187,8 +187,9 @@ def _body(table: Sequence[CostRow], longer: Sequence[CostRow], meshes: Sequence[
     return (
         "CPU seconds over simulated seconds:\n\n"
         + markdown_table(heads, rows, text_columns=1)
-        + f"\nThe report's step is 0.2 s; ours is {DEFAULT_STEP:g} s by default. Spread: slowest less quickest"
-        f" round, over the median. Compilation and set-up: up to {compilation:.1f} s.\n\n### Growth\n\n"
+        + f"\nThe report's step is 0.2 s; ours is {DEFAULT_STEP:g} s by default. Spread: slowest less"
+        f" quickest round, over the median. Compilation and set-up: up to {compilation:.1f} s."
+        "\n\n### Growth\n\n"
         + markdown_table(["panels of", "panels", "CPU over simulated", "spread"], by_mesh, text_columns=1)
         + f"\n{growth_told(table, meshes)}\n"
     )

@@ -21,9 +21,9 @@ MOST = 0.5  # of the difference
 class ExcessAnswer:
     """By how much a first harmonic is larger than the linear one, over it, in a run and solved for.
 
-    `run`: in the run. The linear ship: `pressure` with the pressure load that is not linear, `stern` with that
-    of the aftermost section alone, `displaced` with all of that load and with the diffraction load of where
-    the run lies, `surge` [m] ahead.
+    `run`: in the run. The linear ship: `pressure` with the pressure load that is not linear, `stern` with
+    that of the aftermost section alone, `displaced` with all of that load and with the diffraction load of
+    where the run lies, `surge` [m] ahead.
     """
 
     run: float

@@ -14,18 +14,18 @@ from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.results.rms_tables import markdown_table
 from panelsim.results.verdicts import IDENTICAL, SLIGHT
 from panelsim.studies.run_store import RunStore
-from panelsim.studies.tm2003_190.excess_answer import ExcessAnswer, excess_answer, transom_immersion
-from panelsim.studies.tm2003_190.excess_load import SECTIONS
+from panelsim.studies.tm2003_190.excess_answer import ExcessAnswer
+from panelsim.studies.tm2003_190.regular_causes import causes_table, found_causes, growth_told
 from panelsim.studies.tm2003_190.regular_runs import (
     MEASURED,
     MODE_NAMES,
-    MODES,
     RAMP,
     TIME_STEP,
     TRANSIENT,
     Measured,
     RegularRuns,
     relative_difference,
+    steepness_told,
     worst,
 )
 from panelsim.studies.tm2003_190.section import Section, Statement
@@ -77,7 +77,7 @@ class RegularWaves:
         measured = {name: runs.read(store) for name, runs in self.runs.items()}
         linear = self.runs[SINUSOIDAL].linear()
         stokes = replace(measured[SINUSOIDAL], transfer=self._common(measured[SINUSOIDAL].transfer))
-        causes = self._causes(store, measured[SINUSOIDAL], linear)
+        causes = found_causes(store, self.runs[SINUSOIDAL], measured[SINUSOIDAL], linear, self._shown)
         unsettled = max(float(np.nanmax(found.unsettled, initial=0.0)) for found in measured.values())
         return Section(
             self.key,
@@ -133,19 +133,6 @@ class RegularWaves:
     def _shown(self) -> int:
         return self.runs[SINUSOIDAL].steepness.index(SHOWN)
 
-    def _causes(
-        self, store: RunStore, found: Measured, linear: ComplexArray
-    ) -> dict[tuple[int, ...], ExcessAnswer]:
-        """What makes the largest difference at each Froude number, if it is more than slight."""
-        runs, causes = self.runs[SINUSOIDAL], {}
-        difference = relative_difference(found.transfer[:, :, self._shown], linear, linear)
-        for f, of_speed in enumerate(difference):
-            at = worst(of_speed)
-            if at is not None and abs(of_speed[at]) > SLIGHT:
-                case = runs.by_index[f, at[0], self._shown]
-                causes[f, *at] = excess_answer(store, case, MODES[at[-1]])
-        return causes
-
     def _picture(
         self, folder: Path, f: int, measured: dict[str, Measured], linear: ComplexArray
     ) -> tuple[str, str]:
@@ -170,14 +157,16 @@ class RegularWaves:
         runs, rows = self.runs[SINUSOIDAL], []
         for h, steepness in enumerate(runs.steepness):
             against = relative_difference(measured[SINUSOIDAL].transfer[:, :, h], linear, linear)
-            rows.append(["sinusoidal against frequency domain", _steep(steepness), *_largest(against)])
+            rows.append(
+                ["sinusoidal against frequency domain", steepness_told(steepness), *_largest(against)]
+            )
         sinusoidal = self._common(measured[SINUSOIDAL].transfer)
         for h, steepness in enumerate(self.runs[STOKES].steepness):
             against = relative_difference(measured[STOKES].transfer[:, :, h], sinusoidal[:, :, h], linear)
-            rows.append(["Stokes against sinusoidal", _steep(steepness), *_largest(against)])
+            rows.append(["Stokes against sinusoidal", steepness_told(steepness), *_largest(against)])
         for name, found in measured.items():
             second = found.second[:, :, self.runs[name].steepness.index(SHOWN)]
-            rows.append([f"second harmonic, {name}, of a and k a", _steep(SHOWN), *_largest(second)])
+            rows.append([f"second harmonic, {name}, of a and k a", steepness_told(SHOWN), *_largest(second)])
         return markdown_table(heads, rows, text_columns=1)
 
 
@@ -227,59 +216,13 @@ def domains_statement(runs: RegularRuns, transfer: ComplexArray, linear: Complex
     )
 
 
-def growth(runs: RegularRuns, departure: ComplexArray) -> float:
-    """Power of the steepness by which a departure (H,) grows between the two lowest waves; NaN for one."""
-    if len(runs.steepness) < 2:
-        return np.nan
-    ratio = np.log(runs.steepness[1] / runs.steepness[0])
-    return float(np.log(abs(departure[1]) / abs(departure[0])) / ratio)
-
-
-def growth_told(runs: RegularRuns, found: Measured, linear: ComplexArray, at: tuple[int, ...]) -> str:
-    """With which power of the height a transfer function departs from the linear one; empty for one height."""
-    power = growth(runs, found.transfer[at[0], at[1], :, at[-1]] - linear[at[0], at[1], at[-1]])
-    if not np.isfinite(power):
-        return ""
-    low, high = (_steep(steepness) for steepness in runs.steepness[:2])
-    return (
-        f" At the worst point the transfer function departs as the {power:.1f}th power of the height"
-        f" from H/λ {low} to {high}: a smooth hull would give the second."
-    )
-
-
-def causes_table(runs: RegularRuns, causes: Mapping[tuple[int, ...], ExcessAnswer]) -> str:
-    """The difference of a run from the frequency domain beside what the linear ship makes of its causes."""
-    if not causes:
-        return ""
-    rows = []
-    for at, answer in causes.items():
-        shares = (answer.run, answer.pressure, answer.stern, answer.displaced)
-        told = [f"{100 * share:+.2g}" for share in shares]
-        name = f"{runs.told(at[:-1])}, {MODE_NAMES[at[-1]]}"
-        rows.append([name, *told, f"{answer.surge:+.1f}", answer.verdict])
-    heads = (
-        *("", "run [%]", "pressure [%]", "of the stern [%]"),
-        *("pressure and diffraction [%]", "mean surge [m]", "cause"),
-    )
-    return (
-        "\n### The largest difference at each Froude number, H/λ 1/20\n\n"
-        + markdown_table(heads, rows, text_columns=1)
-        + "\nBy how much the amplitude is larger than the linear one. Run: in the nonlinear run. Pressure: of"
-        " the linear ship, when the part of the run's pressure load that is not linear is added to her load;"
-        f" of the stern: when that part of the aftermost {SECTIONS}th of the length alone is added. Its"
-        f" transom is wetted by {transom_immersion(runs.base.ship):.2f} m of calm water. The last figure has"
-        " all of the pressure, and the diffraction load met where the waves hold her on average against the"
-        " springs.\n"
-    )
-
-
 def _not_identical(runs: RegularRuns, difference: FloatArray) -> str:
     """How the difference grows with steepness, where it is above what is practically identical."""
     size = np.nanmax(np.abs(np.nan_to_num(difference)), axis=(0, 1, 3))
     if size.max() <= IDENTICAL:
         return f"≤ {100 * IDENTICAL:g} % as well."
     told = ", ".join(
-        f"{100 * value:.2g} % at H/λ {_steep(steep)}"
+        f"{100 * value:.2g} % at H/λ {steepness_told(steep)}"
         for value, steep in zip(size, runs.steepness, strict=True)
     )
     return f"Not ≤ {100 * IDENTICAL:g} %: {told}."
@@ -293,10 +236,6 @@ def _not_periodic(runs: dict[str, RegularRuns], measured: dict[str, Measured]) -
         for name, found in measured.items()
         for index in np.argwhere(found.unsettled > SETTLED)
     ]
-
-
-def _steep(steepness: float) -> str:
-    return f"1/{1 / steepness:.0f}"
 
 
 def _largest(values: FloatArray) -> list[str]:
