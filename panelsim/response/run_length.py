@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import sici
 from scipy.stats import norm
 
@@ -26,6 +27,7 @@ _EXCESS = 0.01  # of the band: what the search for a run length may overlook
 # The longest steps of that search, ratios of lengths: what the mean takes from a run changes with its length,
 # of a wave that stands still beside the ship as the square, of a band of waves little.
 _STEP_OF_WAVES, _STEP_OF_SPECTRUM = 1.02, 1.1
+_COARSE = 0.1  # step of the logarithm of the length in what bounds it from above
 
 
 # Of the standard error of a variance, for half the width of the band of its root.
@@ -104,6 +106,9 @@ class SamplingError:
         length, (bands, sure) = last, self._band_and_sure(last)
         found = np.where(np.isnan(bands), np.nan, np.where(bands > wanted, np.inf, first))
         searched = bands <= wanted
+        if not self.spectral:
+            length = self._no_crest_from(wanted, searched, first, last)
+            bands, sure = self._band_and_sure(length)
         while searched.any() and length > first:
             most = ((1.0 + _EXCESS) * wanted / _ONE_SIDE) ** 2 + sure
             ratio = float(np.min((most / ((bands / _ONE_SIDE) ** 2 + sure))[searched]))
@@ -116,6 +121,23 @@ class SamplingError:
             searched &= ~above
             length = shorter
         return np.asarray(found)
+
+    def _no_crest_from(self, wanted: float, searched: NDArray[np.bool_], first: float, last: float) -> float:
+        """A length [s] from which on crests of all beats together are no wider than wanted: s²(x) ≤ 1/x².
+
+        Of the signals (K,) that are searched; the last length where that does not tell.
+        """
+        found = last
+        for length in np.geomspace(last, first, int(np.ceil(np.log(last / first) / _COARSE)) + 1):
+            x = 0.5 * length * self.frequency
+            apart, together = (np.maximum(np.abs(x[:, None] + sign * x), 1.0) ** -2 for sign in (-1.0, 1.0))
+            of_pairs = apart + together - np.diag(1.0 + 0.5 * np.diag(together))
+            scatter = np.einsum("is,ij,js->s", self.variance, of_pairs, self.variance)
+            least = (1.0 - np.maximum(np.abs(x), 1.0) ** -2) @ self.variance
+            if not (_ONE_SIDE * np.sqrt(scatter) <= wanted * least)[searched].all():
+                break
+            found = float(length)
+        return found
 
     def realizations(self, band: float, duration: float) -> FloatArray:
         """Runs (K,) of `duration` [s], of other phases each, whose variances together have this band.

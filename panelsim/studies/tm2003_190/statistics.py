@@ -62,8 +62,15 @@ class SamplingStatistics:
     @cached_property
     def _lengths(self) -> dict[str, FloatArray]:
         """Lengths (2, 6) [s] for the bands by the label of the sea: the search for one takes a while."""
-        found = ((sea.label, self._of_components(sea)) for sea in self.plan.seas)
-        return {label: np.array([waves.run_length(band) for band in BANDS]) for label, waves in found}
+        return {
+            label: np.array([waves.run_length(band) for band in BANDS])
+            for label, waves in self._waves.items()
+        }
+
+    @cached_property
+    def _waves(self) -> dict[str, SamplingError]:
+        """The components of each sea by its label."""
+        return {sea.label: self._of_components(sea) for sea in self.plan.seas}
 
     @cached_property
     def table(self) -> Response:
@@ -80,7 +87,7 @@ class SamplingStatistics:
     def section(self, store: RunStore, folder: Path) -> Section:
         """Read the runs, draw the picture into the folder, say what they show."""
         study = self.plan.read(store)
-        waves = [self._of_components(sea) for sea in study.seas]
+        waves = [self._waves[sea.label] for sea in study.seas]
         spectra = [self._of_spectrum(sea) for sea in study.seas]
         scatter = {model: seed_scatter(study, study.levels.index(model)) for model in (LINEAR, NONLINEAR)}
         picture = self._picture(folder, study, waves, spectra, scatter)
