@@ -13,6 +13,7 @@ from panelsim.errors import PanelsimError
 from panelsim.results.rms_study import RmsStudy, StudySea
 from panelsim.studies import convergence_page, linear_nonlinear_page
 from panelsim.studies.case_cost import case_cost
+from panelsim.studies.case_history import case_history
 from panelsim.studies.convergence import mesh_convergence, recommended, time_step_convergence
 from panelsim.studies.cost import CostRow, cost_rows, growth, measure_costs
 from panelsim.studies.linear_nonlinear import LinearNonlinear, frequency_domain, require_linear_model
@@ -231,6 +232,27 @@ def test_timings_are_kept_taken_up_again_and_cpu_over_simulated_time(tmp_path: P
     before = store.path(case).read_bytes()
     measure_costs([case], store, rounds=2)
     assert store.path(case).read_bytes() == before
+
+
+def test_rounds_are_in_turn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What else the machine does in a while falls on all cases alike."""
+    one, other = case_of(), case_of(**{"run.model": "linear"})
+    store, order = TimingStore(tmp_path), []
+
+    def timed(case: Case, to: TimingStore) -> None:
+        order.append(case.file.run.model)
+        to.add(case, Timing(1.0, 0.5, 100.0, 13, 400))
+
+    monkeypatch.setattr("panelsim.studies.cost._time", timed)
+    measure_costs([one, other], store, rounds=3)
+    assert order == ["nonlinear", "linear"] * 3
+
+
+def test_the_time_of_a_run_is_that_of_its_loop() -> None:
+    case = case_of(**{"run.duration": 5.0})
+    history = case_history(case, case.database())
+    history.tree.attrs |= {"cpu_seconds": 3.0, "jit_seconds": 7.0, "simulated_seconds": 11.0}
+    assert Timing.of_history(history) == Timing(3.0, 7.0, 11.0, 13, len(history.panels))
 
 
 def test_timings_of_another_case_or_version_are_refused(tmp_path: Path) -> None:

@@ -48,6 +48,8 @@ def test_a_transient_is_told() -> None:
     ]
     # The first harmonics see a little of the slope of the mean.
     assert found.change == pytest.approx(mean[1] - mean[0], rel=0.02)
+    # The result is that of the last window.
+    assert found.mean == pytest.approx(np.array([0.3, 0.0]) + mean[0], abs=0.02 * mean[0])
     assert found.unsettled == pytest.approx(found.change / found.amplitude[0])
     quiet = harmonics(TIME, _signal(TIME) + 1e-6 * transient[:, None], OMEGA, after=20.0)
     assert quiet.unsettled.max() < 1e-5

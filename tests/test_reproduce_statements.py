@@ -13,7 +13,7 @@ from panelsim.results.rms_study import RmsStudy
 from panelsim.studies.cost import CostRow
 from panelsim.studies.tm2003_190 import reproduce
 from panelsim.studies.tm2003_190.common import FULL, base_case, in_sea, low_seas, study_sea, study_seas
-from panelsim.studies.tm2003_190.cost import TABLE_4, cost_statement
+from panelsim.studies.tm2003_190.cost import TABLE_4, Cost, cost_statement, growth_told
 from panelsim.studies.tm2003_190.judging import (
     Finding,
     beyond,
@@ -307,9 +307,44 @@ def test_cost_has_to_be_a_250th_at_every_number_of_components(slow: float, holds
             cost = TABLE_4[model][count] / 250.0 * (slow if count == 160 else 0.99)
             rounds = () if np.isnan(cost) else (cost,)
             rows.append(CostRow("", model, count, 2596, rounds, 1.0, None if rounds else "failed"))
-    found = cost_statement(rows)
+    # Rows are known by their components, not by their order.
+    found = cost_statement(rows[::-1])
     assert found.holds is holds
     assert "253 times at 19" in found.figures
+    assert ("could not be timed" in found.remark) == np.isnan(slow)
+    assert not cost_statement(rows[:-1]).holds
+
+
+def timed(components: int, *rounds: float, panels: int = 2596) -> CostRow:
+    return CostRow("", "nonlinear", components, panels, rounds, 1.0)
+
+
+def test_the_range_of_the_rounds_is_told() -> None:
+    rows = [timed(19, 0.254 / 247, 0.254 / 255, 0.254 / 260), timed(37, 0.001), timed(160, 0.004)]
+    found = cost_statement(rows)
+    assert found.holds
+    assert found.figures.startswith("255 times (247 to 260) at 19, 435 times at 37, 409 times at 160;")
+    assert found.remark == "At 19 the rounds lie on both sides of it."
+    assert not cost_statement([*rows[1:], timed(19, 0.254 / 247, 0.254 / 249, 0.254 / 260)]).holds
+
+
+def test_growth_is_told_from_each_size_to_the_next() -> None:
+    table = [timed(19, 1e-3), timed(37, 1.1e-3), timed(160, 2.2e-3)]
+    meshes = [timed(19, 4e-3, panels=4000), timed(19, 1e-3, panels=1000), timed(19, 2e-3, panels=2000)]
+    told = growth_told(table, meshes)
+    assert "2.00 times from 1000 to 2000 panels (power 1.00), 2.00 times from 2000 to 4000" in told
+    assert "1.10 times from 19 to 37 components, 2.00 times from 37 to 160 components." in told
+    failed = CostRow("", "nonlinear", 0, 0, (), np.nan, "failed")
+    assert "2.20 times from 19 to 160" in growth_told([table[0], failed, table[2]], [])
+
+
+def test_the_runs_that_are_timed_are_those_of_table_4() -> None:
+    study = Cost(base_case(), 120.0, 3)
+    counts = [(case.file.run.model, case.seaway.components.count) for case in study.of_table.values()]
+    assert counts == [(model, count) for count in (19, 37, 160) for model in ("linear", "nonlinear")]
+    # TM 2003-190, Table 4.
+    assert list(TABLE_4["linear"].items()) == [(19, 0.019), (37, 0.027), (160, 0.084)]
+    assert list(TABLE_4["nonlinear"].items()) == [(19, 0.254), (37, 0.435), (160, 1.636)]
 
 
 def test_a_realization_has_the_same_phases_in_every_study_and_from_each_heading() -> None:

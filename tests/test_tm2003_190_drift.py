@@ -14,20 +14,20 @@ from panelsim.results.rms_study import RmsStudy
 from panelsim.studies.run_store import RunStore, StoredRun
 from panelsim.studies.tm2003_190 import kernel_speed, look_up
 from panelsim.studies.tm2003_190.common import base_case, in_sea
-from panelsim.studies.tm2003_190.drift import (
+from panelsim.studies.tm2003_190.drift import Drift
+from panelsim.studies.tm2003_190.drift_statements import (
     FREE,
     NO_SPRINGS,
     SHIFTED,
-    Drift,
+    SLOW_LEFT_OUT,
     drift_statement,
     force_statement,
     powers,
 )
 from panelsim.studies.tm2003_190.kernel_speed import DIRECT, FILE, GRID, NUMPY, SINES, TABLES, KernelSpeed
 from panelsim.studies.tm2003_190.look_up import LookUpSurroundings
+from panelsim.studies.tm2003_190.section import Statement
 from panelsim.studies.tm2003_190.statistics import SEA_STATE_7, SamplingStatistics, _worst, seed_scatter
-
-FAR, NEAR = np.array([[0.0, 0.0], [-300.0, 400.0]]), np.array([[0.0, 0.0], [3.0, -4.0]])
 
 
 @pytest.fixture(scope="module")
@@ -58,37 +58,65 @@ class MadeUpRuns:
             "outcome": "diverged" if loose else "finished",
             "outcome_detail": "broached",
             "ramp": run.ramp,
+            "seed": case.file.seaway.seed,
         }
         return StoredRun(time, displacement, np.zeros(len(time)), attrs | {"time_step": run.time_step})
 
 
 def test_the_runs_are_without_the_terms_that_hold(base: Case) -> None:
     study = Drift(base, quick=False)
-    free = study.free[FREE, 150.0, "nonlinear"].supplementary
+    free = study.free[FREE, 150.0, "nonlinear"][0].supplementary
     assert free.stiffness == {"yaw": 2e9}
     assert free.damping == {"roll": 2e7}
-    assert not study.free[NO_SPRINGS, 30.0, "linear"].supplementary.stiffness
+    assert not study.free[NO_SPRINGS, 30.0, "linear"][0].supplementary.stiffness
     assert study.held[1.0, "linear"].supplementary.stiffness == base.supplementary.stiffness
-    even, between = (study.free[kind, 30.0, "linear"].seaway.components for kind in (FREE, SHIFTED))
+    for kind in (FREE, SHIFTED):
+        for model in ("linear", "nonlinear"):
+            assert [case.file.seaway.seed for case in study.free[kind, 30.0, model]] == [1, 2, 3, 4]
+    assert [case.file.seaway.seed for case in study.free[NO_SPRINGS, 30.0, "linear"]] == [1]
+    assert len(Drift(base, quick=True).free[FREE, 30.0, "linear"]) == 2
+    without = study.free[SLOW_LEFT_OUT, 30.0, "linear"][0].seaway.components
+    assert without.frequency[-1] == pytest.approx(1.0)
+    even, between = (study.free[kind, 30.0, "linear"][0].seaway.components for kind in (FREE, SHIFTED))
     assert even.frequency[0] == pytest.approx(0.2)
     assert between.frequency == pytest.approx(0.05 + even.frequency[:-1])
 
 
-def test_drift_is_judged_by_the_ship_length() -> None:
-    slow = (1.1, 0.0006)
-    assert drift_statement(150.0, FAR, NEAR, NEAR, 124.5, slow=slow).holds
-    assert not drift_statement(150.0, NEAR, NEAR, NEAR, 124.5, slow=slow).holds
-    assert not drift_statement(150.0, None, NEAR, NEAR, 124.5, slow=slow).holds
-    both = drift_statement(30.0, FAR, FAR, NEAR, 124.5, slow=slow)
-    assert not both.holds
-    assert "500 m nonlinear and 500 m linear" in both.figures
-    assert "1.1 rad/s is met at 0.0006 rad/s" in both.remark
-    assert "goes 5 m" in both.remark
+def _judged(nonlinear: list[float], linear: list[float], **more: list[float]) -> Statement:
+    found = {(FREE, "nonlinear"): np.array(nonlinear), (FREE, "linear"): np.array(linear)}
+    found |= {(kind, "linear"): np.array(of) for kind, of in more.items()}
+    return drift_statement(30.0, found, 124.5, slow=(1.1, 0.0006))
+
+
+def test_drift_is_judged_by_the_ship_length_over_all_seeds() -> None:
+    """The median of the nonlinear runs is beyond, and no linear run."""
+    assert _judged([200.0, 80.0, 300.0, 900.0], [2.0, 3.0, 4.0, 124.0]).holds
+    assert not _judged([200.0, 80.0, 100.0, 110.0], [2.0, 3.0, 4.0, 1.0]).holds
+    assert not _judged([200.0, 200.0, 300.0, 900.0], [2.0, 3.0, 4.0, 125.0]).holds
+    assert not _judged([200.0, np.nan, 300.0, 900.0], [2.0, 3.0, 4.0, 5.0]).holds
+    assert not _judged([200.0, 200.0, 300.0, 900.0], [2.0, 3.0, 4.0, np.nan]).holds
+    assert not drift_statement(30.0, {}, 124.5, slow=(1.1, 0.0006)).holds
+
+
+def test_ranges_over_seeds_and_the_cause_are_told() -> None:
+    shifted, without = [10.0, 152.0, np.nan], [69.0, 14.0, 30.0]
+    found = _judged(
+        [496.0, 4633.0, 211.0], [1144.0, 3155.0, 90.0], **{SHIFTED: shifted, SLOW_LEFT_OUT: without}
+    )
+    assert not found.holds
+    assert "211 to 4633 m nonlinear (median 496 m) and 90 to 3155 m linear, 3 seeds" in found.figures
+    assert "1.1 rad/s is met at 0.0006 rad/s" in found.remark
+    assert "Without the components above 1.0 rad/s the linear ship goes 14 to 69 m" in found.remark
+    assert "between those of the report's grid she goes 10 to 152 m linear." in found.remark
 
 
 def test_the_mean_force_is_of_second_order_or_not() -> None:
     force = {height: np.array([-3.0, 2.0]) * height**2 for height in (0.25, 0.5, 2.0)}
     assert powers(force) == pytest.approx([2.0, 2.0])
+    # Of the two lowest, where no higher order is seen yet; a force that turns round has none.
+    assert powers({**force, 2.0: np.array([-1.0, 1.0])}) == pytest.approx([2.0, 2.0])
+    assert np.isnan(powers({**force, 0.25: np.array([1.0, 1.0])})[0])
+    assert not force_statement({**force, 0.25: -force[0.25] * [1.0, -1.0]}).holds
     assert force_statement(force).holds
     assert not force_statement({h: values / h for h, values in force.items()}).holds
     assert not force_statement({h: values * h**0.5 for h, values in force.items()}).holds
@@ -105,7 +133,9 @@ def test_the_section_of_drift(base: Case, tmp_path: Path) -> None:
     assert force == pytest.approx([-1e4, 1e4])
     assert [statement.holds for statement in section.statements] == [True, True, True]
     assert not section.failures
-    assert "| no yaw spring | 30 | nonlinear | -660 | -0 | diverged: broached |" in section.body
+    assert "| no yaw spring | 30 | nonlinear | 660 | -660 | -0 | diverged: broached |" in section.body
+    assert "| free | 30 | nonlinear | 660, 660 | -660, -660 | -0, -0 | finished |" in section.body
+    assert "free,30.0,nonlinear,2,-660" in section.tables["drift.csv"]
     assert (tmp_path / "drift.png").is_file()
     assert "0.5,-2500,2500" in section.tables["mean_force.csv"]
 

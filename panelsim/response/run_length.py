@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import sici
 from scipy.stats import norm
 
@@ -22,8 +23,15 @@ SHORTEST = 10.0  # s
 # Shares of the energy left out below and above, and the width of a band over its frequency.
 _TAILS = (1e-5, 1e-4)
 _BAND = 0.01
-# Lengths that are tried in a decade: beats of waves rise and fall, the band of a spectrum falls evenly.
-_OF_WAVES, _OF_SPECTRUM = 20, 6
+_EXCESS = 0.01  # of the band: what the search for a run length may overlook
+# The longest steps of that search, ratios of lengths: what the mean takes from a run changes with its length,
+# of a wave that stands still beside the ship as the square, of a band of waves little.
+_STEP_OF_WAVES, _STEP_OF_SPECTRUM = 1.02, 1.1
+_COARSE = 0.1  # step of the logarithm of the length in what bounds it from above
+
+
+# Of the standard error of a variance, for half the width of the band of its root.
+_ONE_SIDE = 0.5 * float(norm.ppf(0.5 + 0.5 * CONFIDENCE))
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,27 +77,67 @@ class SamplingError:
         tells nothing. NaN for what does not move.
         """
         length = require_positive("duration", duration, "s")
-        one_side = 0.5 * norm.ppf(0.5 + 0.5 * CONFIDENCE)
+        return self._band_and_sure(length, realizations)[0]
+
+    def _band_and_sure(self, length: float, realizations: int = 1) -> tuple[FloatArray, FloatArray]:
+        """The band (K,), and Σ m²/(Σ m)² (K,), which sure amplitudes take from the scatter."""
         moving = self.moving(length)
         total = moving.sum(axis=0)
         scatter = _spectral_scatter if self.spectral else variance_scatter
         deviation = np.sqrt(np.maximum(scatter(self.frequency, moving, length), 0.0) / realizations)
-        return one_side * np.divide(deviation, total, out=np.full(len(total), np.nan), where=total > 0.0)
+        sure = np.zeros(len(total)) if self.spectral else (moving**2).sum(axis=0)
+        return _ONE_SIDE * _ratio(deviation, total), _ratio(sure, total**2)
 
     def run_length(self, band: float, longest: float = LONGEST) -> FloatArray:
-        """Length (K,) [s] from which on a single run has this band (0.05 is 5 %), to 3 %.
+        """Length (K,) [s] from which on no single run has a wider band (0.05 is 5 %), to 1 % of the band.
 
-        Infinite where no run up to `longest` [s] has: waves that meet the ship at nearly one frequency beat
-        more slowly, and then only runs of other phases help, `realizations`. Raises PanelsimError for a band
-        or a length that is not positive.
+        Infinite where the longest run [s] has a wider one: waves that meet the ship at nearly one frequency
+        beat more slowly, and then only runs of other phases help, `realizations`. NaN for what does not move.
+        Raises PanelsimError for a band or a length that is not positive.
+
+        Beats of waves rise and fall with the length T, but T times the scatter of a Gaussian process only
+        rises: Var v = (4/T²) ∫ (T - τ) R² dτ, R its autocorrelation. Amplitudes that are sure take Σ m² from
+        that. So where the band is narrower than wanted it stays so until T is less by a known ratio: the
+        search goes down from the longest run by these steps, and passes over no crest of a beat.
         """
         wanted = require_positive("band", band, "")
         last = require_positive("longest run", longest, "s")
-        first = min(SHORTEST, 0.1 * last)
-        per_decade = _OF_SPECTRUM if self.spectral else _OF_WAVES
-        lengths = np.geomspace(first, last, int(per_decade * np.log10(last / first)))
-        bands = np.array([self.band(float(length)) for length in lengths])
-        return np.array([_from_which_on(lengths, of_one, wanted) for of_one in bands.T])
+        first, step = min(SHORTEST, 0.1 * last), _STEP_OF_SPECTRUM if self.spectral else _STEP_OF_WAVES
+        length, (bands, sure) = last, self._band_and_sure(last)
+        found = np.where(np.isnan(bands), np.nan, np.where(bands > wanted, np.inf, first))
+        searched = bands <= wanted
+        if not self.spectral:
+            length = self._no_crest_from(wanted, searched, first, last)
+            bands, sure = self._band_and_sure(length)
+        while searched.any() and length > first:
+            most = ((1.0 + _EXCESS) * wanted / _ONE_SIDE) ** 2 + sure
+            ratio = float(np.min((most / ((bands / _ONE_SIDE) ** 2 + sure))[searched]))
+            shorter = max(length / min(ratio, step), first)
+            before, (bands, sure) = bands, self._band_and_sure(shorter)
+            above = searched & (bands > wanted)
+            # Between two lengths so close the bands are about even.
+            share = (wanted - before[above]) / (bands[above] - before[above])
+            found[above] = length + (shorter - length) * share
+            searched &= ~above
+            length = shorter
+        return np.asarray(found)
+
+    def _no_crest_from(self, wanted: float, searched: NDArray[np.bool_], first: float, last: float) -> float:
+        """A length [s] from which on crests of all beats together are no wider than wanted: s²(x) ≤ 1/x².
+
+        Of the signals (K,) that are searched; the last length where that does not tell.
+        """
+        found = last
+        for length in np.geomspace(last, first, int(np.ceil(np.log(last / first) / _COARSE)) + 1):
+            x = 0.5 * length * self.frequency
+            apart, together = (np.maximum(np.abs(x[:, None] + sign * x), 1.0) ** -2 for sign in (-1.0, 1.0))
+            of_pairs = apart + together - np.diag(1.0 + 0.5 * np.diag(together))
+            scatter = np.einsum("is,ij,js->s", self.variance, of_pairs, self.variance)
+            least = (1.0 - np.maximum(np.abs(x), 1.0) ** -2) @ self.variance
+            if not (_ONE_SIDE * np.sqrt(scatter) <= wanted * least)[searched].all():
+                break
+            found = float(length)
+        return found
 
     def realizations(self, band: float, duration: float) -> FloatArray:
         """Runs (K,) of `duration` [s], of other phases each, whose variances together have this band.
@@ -204,23 +252,6 @@ def _one_of(name: str, given: float | None, own: FloatArray) -> float:
 
 def _ratio(values: FloatArray, reference: FloatArray) -> FloatArray:
     return np.divide(values, reference, out=np.full(len(values), np.nan), where=reference > 0.0)
-
-
-def _from_which_on(lengths: FloatArray, bands: FloatArray, wanted: float) -> float:
-    """Length [s] after which no band is wider than the one wanted: inf if none, NaN of what does not move.
-
-    The bands do not fall evenly with the length; between two of them they are powers of it.
-    """
-    if np.isnan(bands[-1]):
-        return np.nan
-    wide = np.flatnonzero(~(bands <= wanted))
-    if not wide.size:
-        return float(lengths[0])
-    last = int(wide[-1])
-    if last == len(lengths) - 1:
-        return np.inf
-    falling = -np.log(np.maximum(bands[last : last + 2], 1e-12))
-    return float(np.exp(np.interp(-np.log(wanted), falling, np.log(lengths[last : last + 2]))))
 
 
 def _spectral_scatter(edges: FloatArray, variance: FloatArray, duration: float) -> FloatArray:

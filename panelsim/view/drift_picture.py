@@ -1,6 +1,6 @@
 """How far a ship drifts, and the mean force behind it over wave height."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,15 +11,23 @@ from panelsim.view.plots import COLORS, INK, plain, save
 
 
 def drift_picture(
-    path: Path, tracks: Mapping[str, tuple[FloatArray, FloatArray]], force: Mapping[float, FloatArray]
+    path: Path,
+    tracks: Mapping[str, Sequence[tuple[FloatArray, FloatArray]]],
+    force: Mapping[float, FloatArray],
 ) -> Path:
-    """Draw distances of tracks, time (T,) [s] and place (T, 2) [m], and forces (2,) [N] by height [m]."""
+    """Draw distances of tracks, time (T,) [s] and place (T, 2) [m], and forces (2,) [N] by height [m].
+
+    Tracks of one name, of several seeds, are drawn alike.
+    """
     figure = Figure(figsize=(11, 4.5), layout="constrained")
     far, forces = figure.subplots(1, 2)
     plain(far)
-    for i, (label, (time, place)) in enumerate(tracks.items()):
+    for i, (label, of_seeds) in enumerate(tracks.items()):
         color, dashes = COLORS[(0, 4)[i // 2 % 2]], ("-", "--")[i % 2]
-        far.plot(time, np.linalg.norm(place, axis=1), label=label, color=color, linestyle=dashes)
+        for number, (time, place) in enumerate(of_seeds):
+            named = label if number == 0 else None
+            distance = np.linalg.norm(place, axis=1)
+            far.plot(time, distance, label=named, color=color, linestyle=dashes, linewidth=1.2)
     far.set(xlabel="time [s]", ylabel="distance [m]", title="without springs")
     far.set_ylim(bottom=0.0)
     far.legend(fontsize=9, frameon=False)

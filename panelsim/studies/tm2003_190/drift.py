@@ -14,7 +14,17 @@ from panelsim.conventions import FloatArray
 from panelsim.results.rms_tables import markdown_table
 from panelsim.seaway.dispersion import encounter_frequency
 from panelsim.studies.run_store import RunStore, StoredRun
-from panelsim.studies.tm2003_190.common import BOW_QUARTERING, HEADINGS_DEG
+from panelsim.studies.tm2003_190.common import BOW_QUARTERING, HEADINGS_DEG, STERN_QUARTERING
+from panelsim.studies.tm2003_190.drift_statements import (
+    FREE,
+    HELD,
+    MODELS,
+    NO_SPRINGS,
+    SHIFTED,
+    SLOW_LEFT_OUT,
+    drift_statement,
+    force_statement,
+)
 from panelsim.studies.tm2003_190.section import Section, Statement
 from panelsim.view.drift_picture import drift_picture
 
@@ -22,12 +32,11 @@ HEIGHT, PERIOD = 7.5, 15.0  # m, s: sea state 7 of the report
 LOW_HEIGHTS = (0.25, 0.5, 1.0, 2.0, 4.0)  # m, at the same period
 QUICK_LOW_HEIGHTS = (0.5, 1.0)
 DURATION = 600.0  # s
+SEEDS, QUICK_SEEDS = (1, 2, 3, 4), (1, 2)
 Key = tuple[str, float, str]  # kind of run, heading [deg], model
-MODELS = ("nonlinear", "linear")
-FREE, NO_SPRINGS, SHIFTED, HELD = "free", "no yaw spring", "other components", "held"
-SECOND_ORDER = (1.7, 2.3)  # powers of the height that are the second, whatever is left of the next
 # Components between those of the report: none of them stands still beside the ship.
 BETWEEN = {"start": 0.25, "stop": 1.95, "step": 0.1}
+UP_TO_1 = {"start": 0.2, "stop": 1.0, "step": 0.1}
 
 
 @dataclass(frozen=True)
@@ -38,25 +47,34 @@ class Drift:
     quick: bool
     key: str = "drift"
 
-    @cached_property
-    def free(self) -> dict[Key, Case]:
-        """Sea state 7 by kind of run, heading [deg] and model: free in surge and sway.
+    @property
+    def seeds(self) -> tuple[int, ...]:
+        """Seeds of the sea; the runs without a yaw spring have the first alone."""
+        return QUICK_SEEDS if self.quick else SEEDS
 
-        Then without the yaw spring too; and the linear model in components between those of the report.
+    @cached_property
+    def free(self) -> dict[Key, tuple[Case, ...]]:
+        """Sea state 7 by kind of run, heading [deg] and model, a case a seed: free in surge and sway.
+
+        Then in components between those of the report; the linear ones from astern also without the waves
+        above 1.0 rad/s, one of which stands still beside the ship; and, of one seed, without the yaw spring.
         """
         cases = {}
+        damping = {"roll": self.base.supplementary.damping["roll"]}
+        yaw = {"yaw": self.base.supplementary.stiffness["yaw"]}
+        loose = {"supplementary.damping": damping, "supplementary.stiffness": yaw}
         for heading in HEADINGS_DEG:
             for model in MODELS:
-                sea = self._case(heading, HEIGHT, model)
-                damping = {"roll": self.base.supplementary.damping["roll"]}
-                yaw = {"yaw": self.base.supplementary.stiffness["yaw"]}
-                loose = {"supplementary.damping": damping, "supplementary.stiffness": yaw}
-                cases[FREE, heading, model] = sea.changed(loose)
-                cases[NO_SPRINGS, heading, model] = sea.changed(loose | {"supplementary.stiffness": {}})
-            cases[SHIFTED, heading, "linear"] = cases[FREE, heading, "linear"].changed(
-                {"seaway.frequencies": BETWEEN}
-            )
+                sea = self._case(heading, HEIGHT, model).changed(loose)
+                cases[FREE, heading, model] = self._of_seeds(sea)
+                cases[SHIFTED, heading, model] = self._of_seeds(sea.changed({"seaway.frequencies": BETWEEN}))
+                cases[NO_SPRINGS, heading, model] = (sea.changed({"supplementary.stiffness": {}}),)
+        sea = cases[FREE, STERN_QUARTERING, "linear"][0].changed({"seaway.frequencies": UP_TO_1})
+        cases[SLOW_LEFT_OUT, STERN_QUARTERING, "linear"] = self._of_seeds(sea)
         return cases
+
+    def _of_seeds(self, case: Case) -> tuple[Case, ...]:
+        return tuple(case.changed({"seaway.seed": seed}) for seed in self.seeds)
 
     @cached_property
     def held(self) -> dict[tuple[float, str], Case]:
@@ -82,15 +100,18 @@ class Drift:
     @property
     def cases(self) -> Sequence[Case]:
         """Every run that the section reads."""
-        return [*self.free.values(), *self.held.values()]
+        return [*(case for cases in self.free.values() for case in cases), *self.held.values()]
 
     def section(self, store: RunStore, folder: Path) -> Section:
         """Read the runs, draw the picture into the folder, say what they show."""
-        runs = {key: store.load(case) for key, case in self.free.items() if store.failure(case) is None}
+        runs = {
+            key: tuple(store.load(case) for case in cases if store.failure(case) is None)
+            for key, cases in self.free.items()
+        }
         force = self.mean_force(store)
         paths = {
-            f"{model}, {heading:g}°": (run.time, run.displacement[:, :2])
-            for (kind, heading, model), run in runs.items()
+            f"{model}, {heading:g}°": [(run.time, run.displacement[:, :2]) for run in of_seeds]
+            for (kind, heading, model), of_seeds in runs.items()
             if kind == FREE
         }
         picture = drift_picture(folder / "drift.png", paths, force)
@@ -99,36 +120,44 @@ class Drift:
             "Drift without springs (8)",
             "How far does the ship go without supplementary terms in surge and sway, and why?",
             f"20 knots, H_s {HEIGHT:g} m, T_p {PERIOD:g} s, ten minutes after the ramp; roll damping and yaw"
-            " spring as in the report, nothing in surge and sway. A run ends where yaw passes 60°.",
+            " spring as in the report, nothing in surge and sway. Seeds"
+            f" {', '.join(map(str, self.seeds))}, the same phases from both headings and in both models;"
+            " without the yaw spring the first alone. A run ends where yaw passes 60°.",
             _table(runs) + _force_table(force),
             (*(self._drift_statement(heading, runs) for heading in HEADINGS_DEG), force_statement(force)),
-            ((picture.name, "Distance from where the ship would be, and mean force over H_s."),),
+            ((picture.name, "Distance from where the ship would be, a line a seed; mean force over H_s."),),
             {"drift.csv": _csv(runs), "mean_force.csv": _force_csv(force)},
             series={
-                f"{model}, {heading:g}°": case
-                for (kind, heading, model), case in self.free.items()
+                f"{model}, {heading:g}°": cases[0]
+                for (kind, heading, model), cases in self.free.items()
                 if kind == FREE
             },
-            failures=self._failures(store, runs),
+            failures=self._failures(store),
         )
 
-    def _drift_statement(self, heading: float, runs: Mapping[Key, StoredRun]) -> Statement:
+    def _drift_statement(self, heading: float, runs: Mapping[Key, Sequence[StoredRun]]) -> Statement:
         """The verdict for one heading, of the runs that finished."""
-        finished = {key: run.displacement[:, :2] for key, run in runs.items() if run.early_end is None}
-        keys = ((FREE, "nonlinear"), (FREE, "linear"), (SHIFTED, "linear"))
-        nonlinear, linear, shifted = (finished.get((kind, heading, model)) for kind, model in keys)
-        length, slow = self.base.ship.length, self._slowest(heading)
-        return drift_statement(heading, nonlinear, linear, shifted, length, slow=slow)
-
-    def _failures(self, store: RunStore, runs: Mapping[Key, StoredRun]) -> tuple[str, ...]:
-        """Runs that should have finished: to broach is what those without a yaw spring are for."""
-        found = {", ".join(map(str, key)): store.failure(case) for key, case in self.free.items()}
-        found |= {
-            ", ".join(map(str, key)): run.early_end for key, run in runs.items() if key[0] != NO_SPRINGS
+        found = {
+            (kind, model): np.array([_distance(run) for run in of_seeds])
+            for (kind, of, model), of_seeds in runs.items()
+            if of == heading and len(of_seeds) == len(self.free[kind, of, model])
         }
-        for (height, model), case in self.held.items():
-            failure = store.failure(case)
-            found[f"{HELD}, {height:g} m, {model}"] = failure or store.load(case).early_end
+        return drift_statement(heading, found, self.base.ship.length, slow=self._slowest(heading))
+
+    def _failures(self, store: RunStore) -> tuple[str, ...]:
+        """Runs that should have finished: to broach is what those without a yaw spring are for."""
+        named = {
+            f"{', '.join(map(str, key))}, seed {seed}": (case, key[0] != NO_SPRINGS)
+            for key, cases in self.free.items()
+            for seed, case in zip(self.seeds, cases, strict=False)
+        }
+        named |= {
+            f"{HELD}, {height:g} m, {model}": (case, True) for (height, model), case in self.held.items()
+        }
+        found = {
+            name: store.failure(case) or (store.load(case).early_end if should_finish else None)
+            for name, (case, should_finish) in named.items()
+        }
         return tuple(f"{name}: {told}" for name, told in found.items() if told is not None)
 
     def mean_force(self, store: RunStore) -> dict[float, FloatArray]:
@@ -155,80 +184,33 @@ class Drift:
 
     def _slowest(self, heading: float) -> tuple[float, float]:
         """Frequency of the component that passes the ship most slowly, and of its encounter [rad/s]."""
-        case = self.free[FREE, heading, "linear"]
+        case = self.free[FREE, heading, "linear"][0]
         waves = case.seaway.components
         met = encounter_frequency(waves.frequency, waves.wave_heading, case.speed, case.ship.gravity)
         slow = int(np.argmin(np.abs(met)))
         return float(waves.frequency[slow]), float(met[slow])
 
 
-def drift_statement(
-    heading: float,
-    nonlinear: FloatArray | None,
-    linear: FloatArray | None,
-    shifted: FloatArray | None,
-    length: float,
-    *,
-    slow: tuple[float, float],
-) -> Statement:
-    """Excessive drift, more than a ship length, in the nonlinear model, and less than that in the linear one.
-
-    Tracks (T, 2) [m], None of runs that did not finish; `shifted` the linear one in other components. `slow`:
-    the wave that passes most slowly and its frequency of encounter [rad/s].
-    """
-    says = f"Nonlinear drift without surge and sway terms, none in the linear model (8): {heading:g}°"
-    if nonlinear is None or linear is None:
-        return Statement(says, False, "a run did not finish")
-    far, near = (float(np.linalg.norm(track[-1])) for track in (nonlinear, linear))
-    remark = ""
-    if near > length and shifted is not None:
-        other = float(np.linalg.norm(shifted[-1]))
-        remark = (
-            f"The component of {slow[0]:.2g} rad/s is met at {slow[1]:.1g} rad/s: it stands still beside the"
-            f" ship"
-            f" and pushes her on like a constant force, in first order. In components between those of the"
-            f" report's grid the linear model goes {other:.0f} m."
-        )
-    return Statement(
-        says,
-        far > length >= near,
-        f"after ten minutes {far:.0f} m nonlinear and {near:.0f} m linear; a ship length is {length:.0f} m",
-        remark,
-    )
+def _distance(run: StoredRun) -> float:
+    """Distance [m] at the end from where the ship would be; NaN of a run that did not finish."""
+    return float(np.linalg.norm(run.displacement[-1, :2])) if run.early_end is None else np.nan
 
 
-def force_statement(force: dict[float, FloatArray]) -> Statement:
-    """The drift comes from mean forces of nonlinear terms, which are of second order in low waves."""
-    heights = sorted(force)
-    power = powers(force)
-    holds = bool((power >= SECOND_ORDER[0]).all() and (power <= SECOND_ORDER[1]).all())
-    told = ", ".join(f"{name} {value:.2f}" for name, value in zip(("surge", "sway"), power, strict=True))
-    last = np.log(np.abs(force[heights[-1]]) / np.abs(force[heights[-2]])) / np.log(heights[-1] / heights[-2])
-    return Statement(
-        "Drift comes from mean forces that nonlinear terms bring, of second order in the wave height (8)",
-        holds,
-        f"mean force as H_s to the power {told}, from H_s {heights[0]:g} to {heights[1]:g} m;"
-        f" {SECOND_ORDER[0]:g} to {SECOND_ORDER[1]:g} is the second",
-        f"From {heights[-2]:g} to {heights[-1]:g} m it is {last[0]:.2f} and {last[1]:.2f}."
-        if len(heights) > 2
-        else "",
-    )
-
-
-def powers(force: dict[float, FloatArray]) -> FloatArray:
-    """Power of the height (2,) by which the mean force grows between the two lowest seas."""
-    low, high = sorted(force)[:2]
-    return np.asarray(np.log(np.abs(force[high]) / np.abs(force[low])) / np.log(high / low))
-
-
-def _table(runs: Mapping[Key, StoredRun]) -> str:
+def _table(runs: Mapping[Key, Sequence[StoredRun]]) -> str:
     rows = []
-    for (kind, heading, model), run in runs.items():
-        surge, sway = run.displacement[-1, :2]
-        outcome = run.early_end or "finished"
-        rows.append([kind, f"{heading:g}", model, f"{surge:+.0f}", f"{sway:+.0f}", outcome])
-    heads = ("", "wave heading [deg]", "model", "surge [m]", "sway [m]", "outcome")
-    return markdown_table(heads, rows, text_columns=1) + "\nSurge and sway at the end of the run.\n\n"
+    for (kind, heading, model), of_seeds in runs.items():
+        ends = np.array([run.displacement[-1, :2] for run in of_seeds]).reshape(-1, 2)
+        columns = (np.linalg.norm(ends, axis=1), *ends.T)
+        shown = [
+            ", ".join(f"{value:{form}}" for value in of) for of, form in zip(columns, _FORMS, strict=True)
+        ]
+        outcomes = dict.fromkeys(run.early_end or "finished" for run in of_seeds)
+        rows.append([kind, f"{heading:g}", model, *shown, "; ".join(outcomes)])
+    heads = ("", "wave heading [deg]", "model", "distance [m]", "surge [m]", "sway [m]", "outcome")
+    return markdown_table(heads, rows, text_columns=1) + "\nAt the end of the run, seed by seed.\n\n"
+
+
+_FORMS = (".0f", "+.0f", "+.0f")
 
 
 def _force_table(force: dict[float, FloatArray]) -> str:
@@ -242,13 +224,15 @@ def _force_table(force: dict[float, FloatArray]) -> str:
     )
 
 
-def _csv(runs: Mapping[Key, StoredRun]) -> str:
+def _csv(runs: Mapping[Key, Sequence[StoredRun]]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    heads = ("surge at the end [m]", "sway at the end [m]", "outcome")
+    heads = ("seed", "surge at the end [m]", "sway at the end [m]", "outcome")
     writer.writerow(["run", "wave_heading [deg]", "model", *heads])
-    for key, run in runs.items():
-        writer.writerow([*key, *(f"{value:.6g}" for value in run.displacement[-1, :2]), run.outcome])
+    for key, of_seeds in runs.items():
+        for run in of_seeds:
+            end = [f"{value:.6g}" for value in run.displacement[-1, :2]]
+            writer.writerow([*key, run.attrs["seed"], *end, run.outcome])
     return text.getvalue()
 
 

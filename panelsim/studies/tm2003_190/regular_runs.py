@@ -152,6 +152,11 @@ def worst(values: FloatArray) -> tuple[int, ...] | None:
     return tuple(int(i) for i in np.unravel_index(int(np.nanargmax(np.abs(values))), values.shape))
 
 
+def steepness_told(steepness: float) -> str:
+    """A steepness H/λ in words."""
+    return f"1/{1 / steepness:.0f}"
+
+
 def _scale(case: Case) -> FloatArray:
     """Wave amplitude and slope (2,) [m, rad]."""
     waves = case.seaway.components

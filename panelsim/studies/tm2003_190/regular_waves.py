@@ -2,7 +2,7 @@
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -10,22 +10,22 @@ from pathlib import Path
 import numpy as np
 
 from panelsim.case import Case
-from panelsim.conventions import ComplexArray, Dof, FloatArray
+from panelsim.conventions import ComplexArray, FloatArray
 from panelsim.results.rms_tables import markdown_table
 from panelsim.results.verdicts import IDENTICAL, SLIGHT
-from panelsim.ship.ship import Ship
 from panelsim.studies.run_store import RunStore
-from panelsim.studies.tm2003_190.excess_load import ExcessLoad, excess_load
+from panelsim.studies.tm2003_190.excess_answer import ExcessAnswer
+from panelsim.studies.tm2003_190.regular_causes import causes_table, found_causes, growth_told
 from panelsim.studies.tm2003_190.regular_runs import (
     MEASURED,
     MODE_NAMES,
-    MODES,
     RAMP,
     TIME_STEP,
     TRANSIENT,
     Measured,
     RegularRuns,
     relative_difference,
+    steepness_told,
     worst,
 )
 from panelsim.studies.tm2003_190.section import Section, Statement
@@ -77,6 +77,7 @@ class RegularWaves:
         measured = {name: runs.read(store) for name, runs in self.runs.items()}
         linear = self.runs[SINUSOIDAL].linear()
         stokes = replace(measured[SINUSOIDAL], transfer=self._common(measured[SINUSOIDAL].transfer))
+        causes = found_causes(store, self.runs[SINUSOIDAL], measured[SINUSOIDAL], linear, self._shown)
         unsettled = max(float(np.nanmax(found.unsettled, initial=0.0)) for found in measured.values())
         return Section(
             self.key,
@@ -88,10 +89,10 @@ class RegularWaves:
             f" {RAMP:g} s and {TRANSIENT + 0.5 * MEASURED:g} s more. Between the last two windows mean and"
             f" harmonics change by {unsettled:.1g} of the first harmonic at most. The report's axes are not"
             " told; here they are λ/L, heave over the wave amplitude and pitch over the wave slope k a.",
-            self._body(measured, linear),
+            self._body(measured, linear) + causes_table(self.runs[SINUSOIDAL], causes),
             (
                 stokes_statement(self.runs[STOKES], measured[STOKES], stokes, linear),
-                self._domains_statement(store, measured[SINUSOIDAL], linear),
+                self._domains_statement(measured[SINUSOIDAL], linear, causes),
             ),
             tuple(self._picture(folder, f, measured, linear) for f in range(len(FROUDE))),
             {"regular_waves.csv": _csv(self.runs, measured, linear)},
@@ -111,16 +112,26 @@ class RegularWaves:
         """Of the sinusoidal waves those of the steepness that the Stokes waves have."""
         return sinusoidal[:, :, -len(self.runs[STOKES].steepness) :]
 
-    def _domains_statement(self, store: RunStore, found: Measured, linear: ComplexArray) -> Statement:
-        """Close agreement of time and frequency domain, with the cause where there is none."""
+    def _domains_statement(
+        self, found: Measured, linear: ComplexArray, causes: Mapping[tuple[int, ...], ExcessAnswer]
+    ) -> Statement:
+        """Close agreement of time and frequency domain, with the causes where there is none."""
         runs = self.runs[SINUSOIDAL]
-        shown = runs.steepness.index(SHOWN)
-        statement = domains_statement(runs, found.transfer[:, :, shown], linear)
-        at = worst(relative_difference(found.transfer[:, :, shown], linear, linear))
-        if statement.holds or at is None:
+        statement = domains_statement(runs, found.transfer[:, :, self._shown], linear)
+        if statement.holds or not causes:
             return statement
-        excess = excess_load(store, runs.by_index[at[0], at[1], shown])
-        return replace(statement, remark=f"{statement.remark} {cause(excess, runs, found, linear, at)}")
+        told = [
+            f"{runs.told(at[:-1])}, {MODE_NAMES[at[-1]]} {100 * answer.run:+.2g} %: {answer.verdict}"
+            for at, answer in causes.items()
+        ]
+        at = worst(relative_difference(found.transfer[:, :, self._shown], linear, linear))
+        power = "" if at is None else growth_told(runs, found, linear, at)
+        remark = f"{statement.remark} The cause, solved for in the section: {'; '.join(told)}.{power}"
+        return replace(statement, remark=remark.strip())
+
+    @property
+    def _shown(self) -> int:
+        return self.runs[SINUSOIDAL].steepness.index(SHOWN)
 
     def _picture(
         self, folder: Path, f: int, measured: dict[str, Measured], linear: ComplexArray
@@ -146,14 +157,16 @@ class RegularWaves:
         runs, rows = self.runs[SINUSOIDAL], []
         for h, steepness in enumerate(runs.steepness):
             against = relative_difference(measured[SINUSOIDAL].transfer[:, :, h], linear, linear)
-            rows.append(["sinusoidal against frequency domain", _steep(steepness), *_largest(against)])
+            rows.append(
+                ["sinusoidal against frequency domain", steepness_told(steepness), *_largest(against)]
+            )
         sinusoidal = self._common(measured[SINUSOIDAL].transfer)
         for h, steepness in enumerate(self.runs[STOKES].steepness):
             against = relative_difference(measured[STOKES].transfer[:, :, h], sinusoidal[:, :, h], linear)
-            rows.append(["Stokes against sinusoidal", _steep(steepness), *_largest(against)])
+            rows.append(["Stokes against sinusoidal", steepness_told(steepness), *_largest(against)])
         for name, found in measured.items():
             second = found.second[:, :, self.runs[name].steepness.index(SHOWN)]
-            rows.append([f"second harmonic, {name}, of a and k a", _steep(SHOWN), *_largest(second)])
+            rows.append([f"second harmonic, {name}, of a and k a", steepness_told(SHOWN), *_largest(second)])
         return markdown_table(heads, rows, text_columns=1)
 
 
@@ -204,52 +217,13 @@ def domains_statement(runs: RegularRuns, transfer: ComplexArray, linear: Complex
     )
 
 
-def cause(
-    excess: ExcessLoad, runs: RegularRuns, found: Measured, linear: ComplexArray, at: tuple[int, ...]
-) -> str:
-    """What makes the largest difference: where on the hull the load is not linear, and how it grows."""
-    mode = MODES[at[-1]]
-    share = excess.share(mode)
-    place = int(np.argmax(share))
-    middle = 0.5 * float(excess.stations[place] + excess.stations[place + 1])
-    told = (
-        f"There the pressure {'moment' if mode is Dof.PITCH else 'force'} is {100 * excess.size(mode):.2g} %"
-        f" off its"
-        f" linear part, and {100 * share[place]:.0f} % of that comes from the twentieth of the length about"
-        f" x = {middle:.0f} m"
-    )
-    if place == 0:
-        told += f", the transom, which calm water wets by {transom_immersion(runs.base.ship):.2f} m"
-    power = growth(runs, found.transfer[at[0], at[1], :, at[-1]] - linear[at[0], at[1], at[-1]])
-    if np.isfinite(power):
-        told += (
-            f". From H/λ 1/{1 / runs.steepness[0]:.0f} to 1/{1 / runs.steepness[1]:.0f} the transfer function"
-            f" departs as the {power:.1f}th power of the height: a smooth hull would give the second"
-        )
-    return told + "."
-
-
-def transom_immersion(ship: Ship) -> float:
-    """Depth [m] of the aftermost points of the hull below calm water."""
-    x, z = ship.vertices[:, 0], ship.vertices[:, 2]
-    return float(ship.waterline - z[x < x.min() + 1e-3 * ship.length].min())
-
-
-def growth(runs: RegularRuns, departure: ComplexArray) -> float:
-    """Power of the steepness by which a departure (H,) grows between the two lowest waves; NaN for one."""
-    if len(runs.steepness) < 2:
-        return np.nan
-    ratio = np.log(runs.steepness[1] / runs.steepness[0])
-    return float(np.log(abs(departure[1]) / abs(departure[0])) / ratio)
-
-
 def _not_identical(runs: RegularRuns, difference: FloatArray) -> str:
     """How the difference grows with steepness, where it is above what is practically identical."""
     size = np.nanmax(np.abs(np.nan_to_num(difference)), axis=(0, 1, 3))
     if size.max() <= IDENTICAL:
         return f"≤ {100 * IDENTICAL:g} % as well."
     told = ", ".join(
-        f"{100 * value:.2g} % at H/λ {_steep(steep)}"
+        f"{100 * value:.2g} % at H/λ {steepness_told(steep)}"
         for value, steep in zip(size, runs.steepness, strict=True)
     )
     return f"Not ≤ {100 * IDENTICAL:g} %: {told}."
@@ -263,10 +237,6 @@ def _not_periodic(runs: dict[str, RegularRuns], measured: dict[str, Measured]) -
         for name, found in measured.items()
         for index in np.argwhere(found.unsettled > SETTLED)
     ]
-
-
-def _steep(steepness: float) -> str:
-    return f"1/{1 / steepness:.0f}"
 
 
 def _largest(values: FloatArray) -> list[str]:

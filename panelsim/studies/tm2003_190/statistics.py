@@ -61,6 +61,19 @@ class SamplingStatistics:
         return self.plan.cases
 
     @cached_property
+    def _lengths(self) -> dict[str, FloatArray]:
+        """Lengths (2, 6) [s] for the bands by the label of the sea: the search for one takes a while."""
+        return {
+            label: np.array([waves.run_length(band) for band in BANDS])
+            for label, waves in self._waves.items()
+        }
+
+    @cached_property
+    def _waves(self) -> dict[str, SamplingError]:
+        """The components of each sea by its label."""
+        return {sea.label: self._of_components(sea) for sea in self.plan.seas}
+
+    @cached_property
     def table(self) -> Response:
         """The ship at the speed of the study, from both headings."""
         return response(
@@ -75,7 +88,7 @@ class SamplingStatistics:
     def section(self, store: RunStore, folder: Path) -> Section:
         """Read the runs, draw the picture into the folder, say what they show."""
         study = self.plan.read(store)
-        waves = [self._of_components(sea) for sea in study.seas]
+        waves = [self._waves[sea.label] for sea in study.seas]
         spectra = [self._of_spectrum(sea) for sea in study.seas]
         scatter = {model: seed_scatter(study, study.levels.index(model)) for model in (LINEAR, NONLINEAR)}
         picture = self._picture(folder, study, waves, spectra, scatter)
@@ -134,7 +147,7 @@ class SamplingStatistics:
                 [
                     sea.label,
                     *(_per_cent(_worst(band, major)) for band in bands),
-                    *(_time(_worst(of_waves.run_length(band), major)) for band in BANDS),
+                    *(_time(_worst(length, major)) for length in self._lengths[sea.label]),
                     *(_count(_worst(of_waves.realizations(band, self.duration), major)) for band in BANDS),
                     _signed(of_waves.rms / of_spectrum.rms - 1.0, major),
                 ]
@@ -235,7 +248,7 @@ class SamplingStatistics:
                     scatter[LINEAR][i],
                     scatter[NONLINEAR][i],
                     spectra[i].band(self.duration),
-                    *(of_waves.run_length(band) for band in BANDS),
+                    *self._lengths[sea.label],
                     *(of_waves.realizations(band, self.duration) for band in BANDS),
                     of_waves.rms / spectra[i].rms - 1.0,
                 ]

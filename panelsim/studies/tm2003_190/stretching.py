@@ -16,7 +16,7 @@ from panelsim.results.rms_tables import difference_markdown, markdown_table, rms
 from panelsim.results.verdicts import SLIGHT
 from panelsim.studies.run_store import RunStore
 from panelsim.studies.tm2003_190.common import BOW_QUARTERING, FULL, QUICK
-from panelsim.studies.tm2003_190.excess_load import excess_load
+from panelsim.studies.tm2003_190.excess_answer import excess_answer
 from panelsim.studies.tm2003_190.regular_runs import (
     MODE_NAMES,
     MODES,
@@ -125,21 +125,15 @@ class Stretching:
         at = worst(relative_difference(measured[WHEELER].transfer, linear, linear))
         if found.holds or at is None:
             return found
-        mode, shares = MODES[at[-1]], []
+        told = []
         for name, runs in self.runs.items():
-            excess = excess_load(store, runs.by_index[at[0], at[1], at[2]])
-            share = excess.share(mode)
-            most = int(np.argmax(share))
-            shares.append(
-                f"{name}: {100 * excess.size(mode):.2g} % off its linear part, {100 * share[most]:.0f} % of"
-                f" it about"
-                f" x = {excess.stations[most : most + 2].mean():.0f} m"
+            answer = excess_answer(store, runs.by_index[at[0], at[1], at[2]], MODES[at[-1]])
+            told.append(
+                f"{name} {100 * answer.run:+.2g} % in the run, {100 * answer.pressure:+.2g} % of the linear"
+                f" ship with the pressure that is not linear, {100 * answer.stern:+.2g} % with that of"
+                " the stern alone"
             )
-        cause = (
-            f"At the worst ({self.runs[WHEELER].told(at[:-1])}) the pressure is, {'; '.join(shares)}: the"
-            f" difference"
-            " is of the hull there, whatever the stretching."
-        )
+        cause = f"At the worst ({self.runs[WHEELER].told(at[:-1])}, {MODE_NAMES[at[-1]]}): {'; '.join(told)}."
         return replace(found, remark=f"{found.remark} {cause}")
 
     def _picture(
