@@ -1,9 +1,11 @@
 """Files are written beside their place and renamed, so that nothing half-written is left."""
 
+import json
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from panelsim.errors import PanelsimError, require_kind
 
@@ -42,6 +44,17 @@ def replacing(path: Path) -> Iterator[Path]:
     finally:
         if beside.parent.is_dir():
             beside.unlink(missing_ok=True)
+
+
+def read_json_table(path: Path, what: str, remedy: str) -> dict[str, Any]:
+    """The table that a JSON file holds; PanelsimError that `what` is damaged for anything else."""
+    try:
+        told = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError as error:  # no JSON, or no UTF-8
+        raise PanelsimError(f"{what} is damaged", got=f"{path} ({error})", remedy=remedy) from error
+    if not isinstance(told, dict):
+        raise PanelsimError(f"{what} is damaged", got=f"{path} (no table)", remedy=remedy)
+    return told
 
 
 def write_whole(path: Path, content: bytes) -> None:

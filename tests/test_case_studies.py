@@ -263,9 +263,11 @@ def test_timings_of_another_case_or_version_are_refused(tmp_path: Path) -> None:
         store.path(case).write_text(json.dumps(told | change))
         with pytest.raises(PanelsimError, match="another case or version"):
             store.timings(case)
-    store.path(case).write_text("{")
-    with pytest.raises(PanelsimError, match="damaged"):
-        store.timings(case)
+    damages: list[object] = [{}, [1], told | {"rounds": [{"x": 1}]}, told | {"rounds": "ab"}]
+    for content in ["", "{", *map(json.dumps, damages)]:
+        store.path(case).write_text(content)
+        with pytest.raises(PanelsimError, match=r"damaged(.|\n)*remove the file"):
+            store.timings(case)
 
 
 def test_a_case_that_cannot_be_run_does_not_stop_the_others(tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterator
 from multiprocessing.spawn import get_preparation_data
 from pathlib import Path
+from types import SimpleNamespace
 
 import psutil
 import pytest
@@ -135,6 +136,21 @@ def test_nobody_at_the_address(cases: list[Case], tmp_path: Path, monkeypatch: p
         address = f"tcp://127.0.0.1:{taken.getsockname()[1]}"
         with pytest.raises(PanelsimError, match="No Dask scheduler answers"):
             compute_runs(cases, RunStore(tmp_path), scheduler=address)
+
+
+@pytest.mark.parametrize("name", ["LocalCluster", "Client"])
+def test_processes_that_do_not_start_are_told(
+    cases: list[Case], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise RuntimeError("Nanny\nfailed to start.")
+
+    cluster = SimpleNamespace(workers={}, close=lambda: None)
+    monkeypatch.setattr("distributed.LocalCluster", lambda **_: cluster)
+    monkeypatch.setattr(f"distributed.{name}", fail)
+    with pytest.raises(PanelsimError, match=r"could not be started(.|\n)*Nanny failed(.|\n)*fewer workers"):
+        compute_runs(cases, RunStore(tmp_path), workers=2)
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize(

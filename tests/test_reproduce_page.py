@@ -1,6 +1,7 @@
 """A reproduction on disk: a tiny one is run, stopped, gone on with, made again from its runs."""
 
 import json
+import socket
 from collections.abc import Callable
 from pathlib import Path
 
@@ -14,8 +15,10 @@ from panelsim.studies.computing import compute_runs
 from panelsim.studies.run_store import RunStore, StoredRun
 from panelsim.studies.tm2003_190 import linear_nonlinear, reproduce
 from panelsim.studies.tm2003_190.common import Scope, base_case
+from panelsim.studies.tm2003_190.kernel_speed import KernelSpeed
 from panelsim.studies.tm2003_190.linear_nonlinear import LinearNonlinear
 from panelsim.studies.tm2003_190.load_parts import answer_to, load_parts, pressure_parts
+from panelsim.studies.tm2003_190.model_causes import Pair, parts_path, stored_parts
 from panelsim.studies.tm2003_190.page import anchor
 from panelsim.studies.tm2003_190.reproduce import Reproduction
 from panelsim.studies.tm2003_190.wave_frequencies import at_wave_frequencies
@@ -47,9 +50,10 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def texts(folder: Path) -> dict[str, bytes]:
-    """Every file of a page but recordings, without the line of times."""
+    """Every file of a page but recordings and the list of its files, without the line of times."""
     files = {str(path.relative_to(folder)): path for path in sorted(folder.rglob("*")) if path.is_file()}
-    found = {name: path.read_bytes() for name, path in files.items() if not name.endswith(".rrd")}
+    told = {name: path for name, path in files.items() if not name.endswith((".rrd", "files.json"))}
+    found = {name: path.read_bytes() for name, path in told.items()}
     lines = found["README.md"].decode().splitlines()
     found["README.md"] = "\n".join(line for line in lines if not line.startswith("Time: ")).encode()
     return found
@@ -133,12 +137,24 @@ def test_a_run_that_failed_is_told_and_breaks_its_statement(
 def test_an_older_page_is_replaced_and_other_files_stay(
     made: tuple[Reproduction, Path], undrawn: None, tmp_path: Path
 ) -> None:
-    for name in ("pictures/of_old.png", "notes.txt"):
+    mine = ("pictures/photo.png", "tables/mine.csv", "recordings/mine.rrd", "notes.txt")
+    for name in mine:
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text("mine")
     made[0].make_page(tmp_path)
+    listed = json.loads((tmp_path / "files.json").read_text())
+    assert "tables/models_moderate.csv" in listed["files"]
+    (tmp_path / "pictures/of_old.png").write_text("old")
+    listed["files"] += ["pictures/of_old.png", "notes.txt", "pictures/../notes.txt", 3]
+    (tmp_path / "files.json").write_text(json.dumps(listed))
+    made[0].make_page(tmp_path)
     assert not (tmp_path / "pictures/of_old.png").exists()
-    assert (tmp_path / "notes.txt").read_text() == "mine"
+    assert (tmp_path / "tables/models_moderate.csv").is_file()
+    assert all((tmp_path / name).read_text() == "mine" for name in mine)
+    # A list of another's is none of ours.
+    (tmp_path / "files.json").write_text(json.dumps({"study": "another", "files": ["pictures/photo.png"]}))
+    made[0].make_page(tmp_path)
+    assert (tmp_path / "pictures/photo.png").is_file()
 
 
 @pytest.mark.parametrize(
@@ -186,6 +202,56 @@ def test_bad_arguments_are_refused(
     for word in words:
         assert word in err
     assert not (tmp_path / "reports").exists()
+    assert not (tmp_path / "runs").exists()
+
+
+def test_a_folder_that_cannot_be_made_is_told_before_the_runs(
+    panelsim: Callable[..., tuple[int, str, str]], tmp_path: Path
+) -> None:
+    (tmp_path / "file").write_text("mine")
+    code, _, err = panelsim("reproduce", "tm2003-190", "--quick", "--out", "file/x")
+    assert code == 2 and "cannot be written" in err
+    assert not (tmp_path / "runs").exists()
+
+
+def test_a_scheduler_that_does_not_answer_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("panelsim.studies.cluster.CONNECT_SECONDS", 0.5)
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))  # and does not listen
+        address = f"tcp://127.0.0.1:{taken.getsockname()[1]}"
+        with pytest.raises(PanelsimError, match="No Dask scheduler answers"):
+            tiny(tmp_path / "runs").make_runs(scheduler=address)
+    assert not (tmp_path / "runs").exists()
+
+
+@pytest.mark.parametrize(
+    "content",
+    ["", "{}", "[1]", '{"rms": [], "shares": [], "missed": []}', '{"rms": 0, "shares": "a", "missed": {}}'],
+)
+def test_damaged_parts_of_a_load_are_refused(
+    made: tuple[Reproduction, Path], tmp_path: Path, content: str
+) -> None:
+    store = made[0].store
+    path = next(store.folder.glob("*.parts.json"))
+    pair = Pair("a sea", base_case(), base_case())
+    beside = RunStore(tmp_path)
+    parts_path(pair, beside).write_text(path.read_text())
+    assert stored_parts([pair], beside)
+    parts_path(pair, beside).write_text(content)
+    with pytest.raises(PanelsimError, match="damaged"):
+        stored_parts([pair], beside)
+
+
+@pytest.mark.parametrize("content", ["", "[1]"])
+def test_damaged_timings_of_the_kernel_are_refused(tmp_path: Path, content: str) -> None:
+    study = KernelSpeed(base_case(), True)
+    (tmp_path / "kernel_speed.json").write_text("{}")
+    assert not study.is_measured(RunStore(tmp_path))
+    (tmp_path / "kernel_speed.json").write_text(content)
+    with pytest.raises(PanelsimError, match="damaged"):
+        study.is_measured(RunStore(tmp_path))
 
 
 def test_a_page_that_is_there_is_not_overwritten(

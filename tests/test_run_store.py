@@ -1,6 +1,7 @@
 """Runs of studies on disk: found by what was run, refused where they are of something else."""
 
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -83,10 +84,46 @@ def test_a_run_depends_on_the_files_that_its_case_names(tmp_path: Path, case: Ca
     shutil.copytree(EXAMPLE.parents[1] / "hulls" / "box", tmp_path / "mine")
     mine = Case(case.changed({"ship.hull": "mine"}).file, tmp_path)
     before = run_key(mine)
-    assert run_key(mine) == before
+    (tmp_path / "mine" / "notes.txt").write_text("not read by any run")
+    assert run_key(mine.changed({})) == before
     particulars = tmp_path / "mine" / "particulars.toml"
     particulars.write_text(particulars.read_text() + "\n# another\n")
-    assert run_key(mine) != before
+    assert run_key(mine.changed({})) != before
+    assert run_key(mine) == before  # it is taken once: a study finds what it has made
+
+
+def test_the_offsets_of_a_hull_folder_are_read(tmp_path: Path, case: Case) -> None:
+    shutil.copytree(EXAMPLE.parents[1] / "hulls" / "s175", tmp_path / "mine")
+    mine = Case(case.changed({"ship.hull": "mine"}).file, tmp_path)
+    (tmp_path / "mine" / "hydro.nc").unlink()
+    assert run_key(mine.changed({})) == run_key(mine)
+    offsets = tmp_path / "mine" / "offsets.csv"
+    offsets.write_text(offsets.read_text() + "\n")
+    assert run_key(mine.changed({})) != run_key(mine)
+
+
+def test_a_folder_called_as_a_bundled_hull_makes_no_other_run(tmp_path: Path, case: Case) -> None:
+    here = Case(case.file, tmp_path)
+    before = run_key(here)
+    assert before == run_key(case)
+    (tmp_path / case.file.ship.hull).mkdir()
+    (tmp_path / case.file.ship.hull / "particulars.toml").write_text("another hull")
+    assert run_key(here.changed({})) == before
+
+
+def test_a_mesh_and_the_file_of_a_sea_are_read_and_a_folder_is_none(tmp_path: Path, case: Case) -> None:
+    sea = {"kind": "components", "file": "sea.csv"}
+    of_file = Case(case.changed({"ship.hull": "ship.stl", "seaway": sea}).file, tmp_path)
+    keys = [run_key(of_file.changed({}))]
+    (tmp_path / "sea.csv").mkdir()
+    (tmp_path / "ship.stl").mkdir()
+    assert run_key(of_file.changed({})) == keys[0]
+    for name in ("sea.csv", "ship.stl"):
+        (tmp_path / name).rmdir()
+        for text in ("one", "two"):
+            (tmp_path / name).write_text(text)
+            keys.append(run_key(of_file.changed({})))
+    assert len(set(keys)) == 5
 
 
 def test_a_run_of_another_case_under_this_name_is_refused(
@@ -125,6 +162,54 @@ def test_a_file_without_motions_is_refused(store: RunStore, case: Case) -> None:
         file["time"] = [0.0]
     with pytest.raises(PanelsimError, match="damaged"):
         store.load(case)
+
+
+@pytest.mark.parametrize(
+    ("damage", "words"),
+    [
+        (lambda file: file.attrs.pop("outcome"), "without outcome"),
+        (lambda file: shorten(file, "displacement"), "another length"),
+        (lambda file: shorten(file, "wave_elevation"), "another length"),
+        (
+            lambda file: file["displacement"].write_direct(np.full(file["displacement"].shape, np.nan)),
+            "finite",
+        ),
+    ],
+)
+def test_a_run_with_something_missing_is_refused(
+    store: RunStore, case: Case, make_history: Any, damage: Callable[[h5py.File], object], words: str
+) -> None:
+    keep(store, case, make_history())
+    with h5py.File(store.path(case), "a") as file:
+        damage(file)
+    with pytest.raises(PanelsimError, match=f"damaged(.|\n)*{words}"):
+        store.load(case)
+
+
+def shorten(file: h5py.File, name: str) -> None:
+    """Take the last row away."""
+    values = file[name][:-1]
+    del file[name]
+    file[name] = values
+
+
+def test_a_diverged_run_may_end_in_what_is_no_number(store: RunStore, case: Case, make_history: Any) -> None:
+    motions = make_history().displacement.copy()
+    motions[-1] = np.nan
+    keep(store, case, make_history(displacement=motions, outcome="diverged", outcome_detail="heave"))
+    assert store.load(case).early_end == "diverged: heave"
+
+
+@pytest.mark.parametrize("content", [b"", b"[]", b"[1]", b"\xff\xfe", b'"text"'])
+def test_a_damaged_note_of_a_failure_is_refused(store: RunStore, case: Case, content: bytes) -> None:
+    store.save_failure(case, "no luck")
+    (note,) = store.folder.iterdir()
+    note.write_bytes(content)
+    with pytest.raises(PanelsimError, match=r"damaged(.|\n)*remove the file"):
+        store.failure(case)
+    note.write_bytes(b"{}")
+    with pytest.raises(PanelsimError, match="another version"):
+        store.failure(case)
 
 
 def test_a_run_that_is_not_there_is_told(store: RunStore, case: Case) -> None:

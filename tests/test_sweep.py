@@ -1,6 +1,7 @@
 """Sweeps: statistics of the runs as they are by themselves, what is refused, pictures and the command."""
 
 import json
+import socket
 from collections.abc import Callable
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from panelsim.studies.axes import Axis
 from panelsim.studies.case_history import case_history
 from panelsim.studies.run_store import RunStore
 from panelsim.studies.sweep import sweep
+from panelsim.studies.sweep_folder import SweepFolder
 from panelsim.studies.sweep_plan import plan_sweep
 from panelsim.view.sweep_picture import HEADING, SPEED, _around, sweep_picture
 
@@ -224,7 +226,7 @@ def test_the_command(panelsim: Panelsim, case_file: Path, found: xr.Dataset) -> 
     assert len(lines) == 1 + 2 * 6 and lines[0].startswith(f"{HEADING},dof,mean,rms,")
 
     code, _, err = panelsim(*command, "--seeds", 3)
-    assert code == 2 and "not empty" in err
+    assert code == 2 and "a sweep of this case already" in err and "--resume" in err
     before = {file: file.stat().st_mtime_ns for file in (folder / "runs").iterdir()}
     code, out, _ = panelsim(*command, "--seeds", 3, "--resume")
     assert code == 0 and "2 x 3 = 6 runs" in out
@@ -258,6 +260,77 @@ def test_commands_refused(panelsim: Panelsim, case_file: Path, arguments: list[s
     code, out, err = panelsim("sweep", case_file, *arguments)
     assert code == 2 and words in err and not out
     assert not Path("runs").exists()
+
+
+def test_a_sweep_that_was_killed_goes_on_by_the_same_command(
+    panelsim: Panelsim, case_file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    command = ["sweep", case_file, "--over", "run.speed_knots=0,9", "--workers", 1]
+    with monkeypatch.context() as patch:
+        patch.setattr(SweepFolder, "write", lambda *_: 1 / 0)  # and so it has runs, and no statistics
+        with pytest.raises(ZeroDivisionError):
+            panelsim(*command)
+        before = {file: file.stat().st_mtime_ns for file in Path("runs/sea-sweep/runs").iterdir()}
+    assert len(before) == 2
+    code, _, err = panelsim(*command, "--set", "seaway.seed=7")
+    assert code == 2 and "not empty" in err
+    code, _, _ = panelsim(*command)
+    assert code == 0
+    assert before == {file: file.stat().st_mtime_ns for file in Path("runs/sea-sweep/runs").iterdir()}
+
+
+def test_a_scheduler_that_does_not_answer_leaves_nothing(
+    panelsim: Panelsim, case_file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("panelsim.studies.cluster.CONNECT_SECONDS", 0.5)
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))  # and does not listen
+        address = f"tcp://127.0.0.1:{taken.getsockname()[1]}"
+        code, _, err = panelsim("sweep", case_file, "--over", "run.speed_knots=0,9", "--scheduler", address)
+    assert code == 2 and "No Dask scheduler answers" in err
+    assert not Path("runs").exists()
+
+
+def test_force_takes_away_what_a_sweep_made_and_nothing_else(base: Case, tmp_path: Path) -> None:
+    folder, ours = SweepFolder(tmp_path), f"{'0a' * 10}.nc"
+    names = ("sweep.nc", "sweep.csv", "sweep.png", f"runs/{ours}", f"runs/{'b' * 20}.failed.json")
+    theirs = ("notes.txt", "runs/my_hydro.nc", "runs/my.failed.json", f"runs/x{ours}")
+    (tmp_path / "runs").mkdir()
+    for name in (*names, *theirs):
+        (tmp_path / name).write_text("mine")
+    folder.begin(base, anew=True)  # no sweep was begun here: all are the user's
+    assert all((tmp_path / name).read_text() == "mine" for name in (*names, *theirs))
+    folder.begin(base, anew=False)
+    assert [name for name in names if not (tmp_path / name).exists()] == ["sweep.png"]
+    folder.begin(base, anew=True)
+    assert not any((tmp_path / name).exists() for name in names)
+    assert all((tmp_path / name).read_text() == "mine" for name in theirs)
+
+
+@pytest.mark.parametrize("content", [b"", b"{}", b"[1]", b"\xff\xfe", b'{"identity": 1}'])
+def test_a_damaged_note_of_a_sweep(base: Case, tmp_path: Path, content: bytes) -> None:
+    """It is refused in words, and with --force not taken for one of ours."""
+    folder = SweepFolder(tmp_path)
+    for name in ("sweep.json", "sweep.nc", "sweep.png"):
+        (tmp_path / name).write_bytes(content)
+    for resume in (True, False):
+        with pytest.raises(PanelsimError, match=r"damaged|no note of a sweep"):
+            folder.require_free(base, force=False, resume=resume)
+    folder.require_free(base, force=True, resume=False)
+    folder.begin(base, anew=True)
+    assert (tmp_path / "sweep.nc").exists() and (tmp_path / "sweep.png").exists()
+
+
+def test_a_sweep_into_a_folder_called_as_the_hull(
+    panelsim: Panelsim, case_file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The bundled hull is meant, and the runs are found again."""
+    monkeypatch.chdir(case_file.parent)
+    command = ["sweep", case_file, "--over", "run.speed_knots=0,9", "--workers", 1]
+    code, _, err = panelsim(*command, "--out", "halifax")
+    assert code == 0, err
+    code, _, err = panelsim(*command, "--out", "halifax", "--resume")
+    assert code == 0, err
 
 
 def test_an_interrupt_says_how_to_go_on(

@@ -6,7 +6,7 @@ import numpy as np
 
 from panelsim.case.schema import ShipSection
 from panelsim.errors import PanelsimError
-from panelsim.hull.form import bundled_hull_names, load_hull
+from panelsim.hull.form import bundled_hull_names, hull_files, load_hull
 from panelsim.hull.readers import SUFFIXES, read_mesh
 from panelsim.ship.bundled import load_ship
 from panelsim.ship.ship import Ship
@@ -30,6 +30,17 @@ def beside(folder: Path, name: str) -> str:
     return str(path) if path.exists() else name
 
 
+def ship_files(section: ShipSection, folder: Path) -> tuple[Path, ...]:
+    """The files that `build_ship` reads: a mesh, or those of a hull folder; of a bundled hull none."""
+    # A bundled name means that hull, even with a folder of this name beside the case file.
+    if section.hull in bundled_hull_names():
+        return ()
+    path = Path(beside(folder, section.hull))
+    if is_mesh_file(section.hull):
+        return (path,) if path.is_file() else ()
+    return hull_files(path) if path.is_dir() else ()
+
+
 def build_ship(section: ShipSection, folder: Path) -> Ship:
     """The ship of a case file that lies in `folder`: a hull form's, or one of the user's own mesh.
 
@@ -43,7 +54,7 @@ def build_ship(section: ShipSection, folder: Path) -> Ship:
             got=f'hull = "{section.hull}"',
             allowed=f"a file ending in {', '.join(SUFFIXES)}",
         )
-    # A bundled name means that hull, even with a folder of this name beside the case file.
+    # As in `ship_files`: a bundled name comes before a folder of this name.
     form = load_hull(section.hull if section.hull in bundled_hull_names() else beside(folder, section.hull))
     height = section.center_of_gravity_height
     if height is None:

@@ -10,7 +10,8 @@ from rich.table import Table
 from panelsim.cli.options import Force
 from panelsim.cli.show import err, out, progress_bars
 from panelsim.errors import PanelsimError
-from panelsim.studies.output_folder import refuse_occupied_folder
+from panelsim.studies.computing import require_processes
+from panelsim.studies.output_folder import make_output_folder, refuse_occupied_folder, remove_if_empty
 
 if TYPE_CHECKING:  # it brings matplotlib and rerun
     from panelsim.studies.tm2003_190.section import Section
@@ -44,19 +45,25 @@ def reproduce(
         raise PanelsimError(
             "There is no such report to reproduce", got=f'"{name}"', allowed=", ".join(REPORTS)
         )
+    require_processes(workers, scheduler)
     called = f"{name}-quick" if quick else name
     folder = out_folder if out_folder is not None else Path("reports") / called
     refuse_occupied_folder(folder, force=force)
     from panelsim.studies.tm2003_190.reproduce import reproduction  # brings matplotlib and rerun
 
     study = reproduction(quick=quick, runs=runs if runs is not None else Path("runs") / called)
-    with progress_bars() as track:
-        tell = _teller(track)
-        if from_runs:
-            study.require_complete()
-        else:
-            study.make_runs(workers=workers, scheduler=scheduler, progress=tell)
-        sections = study.make_page(folder, tell)
+    if from_runs:
+        study.require_complete()
+    make_output_folder(folder)
+    try:
+        with progress_bars() as track:
+            tell = _teller(track)
+            if not from_runs:
+                study.make_runs(workers=workers, scheduler=scheduler, progress=tell)
+            sections = study.make_page(folder, tell)
+    except BaseException:
+        remove_if_empty(folder)
+        raise
     _show(sections)
     out.print(f"The page is {folder / 'README.md'}, the runs are in {study.runs}.", soft_wrap=True)
 

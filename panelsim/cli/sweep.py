@@ -13,7 +13,7 @@ from panelsim.cli.options import EXIT_ENDED_EARLY, Force, Overrides
 from panelsim.cli.show import err, out, progress_bars, warn
 from panelsim.cli.show_sweep import ended_early, show_sweep
 from panelsim.studies.axes import Axis, require_axes
-from panelsim.studies.computing import require_processes
+from panelsim.studies.computing import require_cluster, require_processes
 from panelsim.studies.sweep import run_sweep
 from panelsim.studies.sweep_folder import SweepFolder
 from panelsim.studies.sweep_plan import MOST_RUNS, plan_sweep
@@ -60,6 +60,7 @@ def sweep(
     folder.require_free(case, force=force, resume=resume)
     _ = case.ship, case.seaway, case.supplementary, case.points  # whatever is wrong with them comes first
     warn(case.warnings())
+    require_cluster(scheduler)
     folder.begin(case, anew=force)
     out.print(f"{' x '.join(map(str, plan.shape))} = {int(np.prod(plan.shape))} runs", soft_wrap=True)
     try:

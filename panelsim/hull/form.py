@@ -1,5 +1,6 @@
 """A hull form with its dimensions and loading: loaded by name or folder, scaled, panelled."""
 
+import contextlib
 import difflib
 import hashlib
 from dataclasses import dataclass, field, replace
@@ -149,6 +150,15 @@ def hull_folder(name_or_path: str | Path) -> Path:
         allowed=f"{', '.join(bundled_hull_names())}, or a folder that holds {FILE_NAME}",
         remedy=f"did you mean {near[0]}?" if near else None,
     )
+
+
+def hull_files(folder: Path) -> tuple[Path, ...]:
+    """The files of a hull folder that `load_hull` reads: the particulars, and offsets that they name."""
+    read = [folder / FILE_NAME]
+    with contextlib.suppress(PanelsimError):  # of particulars that are not as they should be no more is read
+        offsets = read_particulars(folder).form.get("offsets")
+        read += [folder / offsets] if isinstance(offsets, str) else []
+    return tuple(path for path in read if path.is_file())
 
 
 def bundled_hull_names() -> tuple[str, ...]:

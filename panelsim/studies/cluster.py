@@ -49,7 +49,7 @@ def local_client(workers: int) -> Iterator["Client"]:
         stack.enter_context(_main_module_left_alone())
         # One task at a process: those that wait at a lost one would be taken for what killed it.
         stack.enter_context(dask.config.set({"distributed.scheduler.worker-saturation": 1.0}))
-        with _interrupts_kept_from_children():
+        with _interrupts_kept_from_children(), _start_told():
             cluster = LocalCluster(
                 n_workers=workers,
                 threads_per_worker=1,
@@ -63,6 +63,20 @@ def local_client(workers: int) -> Iterator["Client"]:
             stack.callback(_end, cluster)
             client = stack.enter_context(Client(cluster, set_as_default=False))
         yield client
+
+
+@contextmanager
+def _start_told() -> Iterator[None]:
+    """Tell of processes that did not start."""
+    try:
+        yield
+    except (RuntimeError, OSError) as error:
+        raise PanelsimError(
+            "The processes for the runs could not be started",
+            got=f"{type(error).__name__}: {' '.join(str(error).split())}",
+            remedy="start the study again, it goes on where it was; fewer workers need less memory,"
+            " and one worker needs none of these processes",
+        ) from error
 
 
 def _end(cluster: "LocalCluster") -> None:

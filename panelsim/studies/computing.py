@@ -68,6 +68,13 @@ def compute_runs(
                 progress(done, len(missing))
 
 
+def require_cluster(scheduler: str | None) -> None:
+    """Raise PanelsimError where no fitting cluster answers at an address, before anything is written."""
+    if scheduler is not None:
+        with scheduler_client(scheduler):
+            pass
+
+
 def require_processes(workers: int | None, scheduler: str | None) -> None:
     """Raise PanelsimError for a number of processes, or an address of a cluster, that cannot be."""
     if workers is not None:

@@ -4,7 +4,9 @@ from pathlib import Path
 
 import numpy as np
 
+from panelsim.conventions import RULES
 from panelsim.files import write_whole
+from panelsim.motion.requirements import LONGEST_STEP
 from panelsim.results.rms_study import MINOR, RmsStudy
 from panelsim.results.rms_tables import difference_markdown, rms_csv, rms_markdown
 from panelsim.results.verdicts import IDENTICAL, words, worst_difference
@@ -30,8 +32,8 @@ def write_convergence(study: Convergence, store: RunStore, folder: Path) -> tupl
     """
     found = {scheme: study.study(store, scheme) for scheme in study.schemes}
     pictures = {scheme: _picture_name(scheme) for scheme in study.schemes}
-    for old in folder.glob("difference-*.png"):
-        old.unlink()  # of other schemes, whose page this one takes the place of
+    for scheme in (*LONGEST_STEP, *RULES):  # of others, whose page this one takes the place of
+        (folder / _picture_name(scheme)).unlink(missing_ok=True)
     for scheme, rms in found.items():
         rms_over_levels(rms, folder / pictures[scheme])
     write_whole(folder / TABLE, _csv(found).encode())

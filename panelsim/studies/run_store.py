@@ -7,24 +7,31 @@ a run of another case or version is not taken for this one.
 
 import hashlib
 import json
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import h5py
 import numpy as np
 
 from panelsim.case import Case
-from panelsim.case.ship_section import beside
+from panelsim.case.ship_section import beside, ship_files
 from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
-from panelsim.files import write_whole
+from panelsim.files import read_json_table, write_whole
 from panelsim.motion.history import History
 
 panelsim_version = cache(lambda: version("panelsim"))  # to look it up takes as long as to read a run
+NEEDED = ("outcome", "outcome_detail", "ramp", "time_step", "cpu_seconds")
 KEPT = ("displacement", "wave_elevation")
+RUN_FILE = re.compile(r"[0-9a-f]{20}\.(nc|failed\.json)")  # how the files of a store are called
+_identities: WeakKeyDictionary[Case, str] = WeakKeyDictionary()
+_AGAIN = "remove the file and run again"
 _ANOTHER = "choose another folder for the runs, or remove those that are in it"
 
 
@@ -39,6 +46,21 @@ class StoredRun:
     displacement: FloatArray
     wave_elevation: FloatArray
     attrs: dict[str, Any]
+
+    @property
+    def fault(self) -> str | None:
+        """What is wrong with the run as it was read; None where it is whole."""
+        missing = [name for name in NEEDED if name not in self.attrs]
+        if missing:
+            return f"without {', '.join(missing)}"
+        rows = len(self.time)
+        if rows < 2 or self.displacement.shape != (rows, 6) or self.wave_elevation.shape != (rows,):
+            return "motions of another length than the time"
+        # A diverged run may end in what is no number.
+        motions = self.displacement[self.after_ramp]
+        if self.outcome == "finished" and not (len(motions) and np.isfinite(motions).all()):
+            return "motions that are no finite numbers"
+        return None
 
     @property
     def outcome(self) -> str:
@@ -102,9 +124,9 @@ class RunStore:
         path = self._failure_path(case)
         if not path.is_file():
             return None if self.path(case).is_file() else self._lost.get(run_key(case))
-        told = json.loads(path.read_text(encoding="utf-8"))
+        told = read_json_table(path, "The note of a run that failed", _AGAIN)
         _require_same(path, told, case)
-        return str(told["message"])
+        return str(told.get("message", "the note does not say why"))
 
     def rms(self, case: Case) -> tuple[FloatArray, str | None]:
         """`StoredRun.rms` and `early_end` of a case; studies that share runs read them once.
@@ -132,20 +154,27 @@ class RunStore:
                 attrs = {name: _plain(value) for name, value in file.attrs.items()}
                 time, displacement, elevation = (file[name][:] for name in ("time", *KEPT))
         except (OSError, KeyError, RuntimeError) as error:
-            raise PanelsimError(
-                "A stored run is damaged", got=f"{path} ({error})", remedy="remove the file and run again"
-            ) from error
+            raise PanelsimError("A stored run is damaged", got=f"{path} ({error})", remedy=_AGAIN) from error
         _require_same(path, attrs, case)
-        return StoredRun(time, displacement, elevation, attrs)
+        run = StoredRun(time, displacement, elevation, attrs)
+        fault = run.fault
+        if fault is not None:
+            raise PanelsimError("A stored run is damaged", got=f"{path} ({fault})", remedy=_AGAIN)
+        return run
 
 
 def run_identity(case: Case) -> str:
-    """What a run depends on, as JSON: the case, and digests of the files that it names."""
-    described = {
-        "case": case.file.model_dump(mode="json", exclude_none=True),
-        "files": file_digests(case),
-    }
-    return json.dumps(described, sort_keys=True, ensure_ascii=False)
+    """What a run depends on, as JSON: the case, and digests of the files that it reads.
+
+    It is taken once for each case, so that a study finds its runs under the names that it gave them.
+    """
+    if case not in _identities:
+        described = {
+            "case": case.file.model_dump(mode="json", exclude_none=True),
+            "files": file_digests(case),
+        }
+        _identities[case] = json.dumps(described, sort_keys=True, ensure_ascii=False)
+    return _identities[case]
 
 
 def run_key(case: Case) -> str:
@@ -161,19 +190,25 @@ def kept_bytes(history: History, identity: str) -> bytes:
 
 
 def file_digests(case: Case) -> dict[str, str]:
-    """Digests of the files and folders that the case names and that are there, by their names in the case."""
+    """Digests of the files that a run of the case reads, by the names in the case that lead to them.
+
+    What lies beside them makes no other run: not a folder that is called as a bundled hull, nor other files
+    in the folder of a hull.
+    """
     file = case.file
-    named = [file.ship.hull, file.hydrodynamics.file, file.seaway.file, *(file.seaway.files or ())]
-    paths = [(name, Path(beside(case.folder, name))) for name in named if name is not None]
-    return {name: _digest(path) for name, path in paths if path.exists()}
+    named = [file.hydrodynamics.file, file.seaway.file, *(file.seaway.files or ())]
+    paths = {name: Path(beside(case.folder, name)) for name in named if name is not None}
+    read: dict[str, tuple[Path, ...]] = {
+        name: (path,) if path.is_file() else () for name, path in paths.items()
+    }
+    read[file.ship.hull] = ship_files(file.ship, case.folder)
+    return {name: _digest(files) for name, files in read.items() if files}
 
 
-def _digest(path: Path) -> str:
-    """Digest of a file, or of all files in a folder."""
+def _digest(files: Sequence[Path]) -> str:
     digest = hashlib.sha256()
-    for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
-        if file.is_file():
-            digest.update(file.name.encode() + b"\0" + file.read_bytes())
+    for file in files:
+        digest.update(file.name.encode() + b"\0" + file.read_bytes())
     return digest.hexdigest()
 
 

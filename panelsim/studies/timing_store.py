@@ -9,9 +9,11 @@ from typing import Any
 
 from panelsim.case import Case
 from panelsim.errors import PanelsimError
-from panelsim.files import write_whole
+from panelsim.files import read_json_table, write_whole
 from panelsim.motion.history import History
 from panelsim.studies.run_store import run_identity, run_key
+
+_AGAIN = "remove the file and time the runs again"
 
 
 @dataclass(frozen=True)
@@ -51,7 +53,13 @@ class TimingStore:
 
         Raises PanelsimError for a file that is damaged, or of another case or version.
         """
-        return tuple(Timing(**round_) for round_ in self._told(case).get("rounds", ()))
+        rounds = self._told(case).get("rounds", [])
+        try:
+            return tuple(Timing(**round_) for round_ in rounds)
+        except TypeError as error:
+            raise PanelsimError(
+                "The file of stored timings is damaged", got=self.path(case), remedy=_AGAIN
+            ) from error
 
     def failure(self, case: Case) -> str | None:
         """Why a case could not be run to its end; None where it was, or was not tried."""
@@ -79,14 +87,11 @@ class TimingStore:
         path = self.path(case)
         if not path.is_file():
             return {}
-        try:
-            told: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-            same = (told["panelsim_version"], told["identity"]) == (version("panelsim"), run_identity(case))
-        except (ValueError, KeyError, TypeError) as error:
-            raise PanelsimError(
-                "Stored timings are damaged", got=path, remedy="remove the file and time the runs again"
-            ) from error
-        if not same:
+        told = read_json_table(path, "The file of stored timings", _AGAIN)
+        of = told.get("panelsim_version"), told.get("identity")
+        if None in of:
+            raise PanelsimError("The file of stored timings is damaged", got=path, remedy=_AGAIN)
+        if of != (version("panelsim"), run_identity(case)):
             raise PanelsimError(
                 "Stored timings are of another case or version of panelsim",
                 got=path,

@@ -9,7 +9,8 @@ import numpy as np
 
 from panelsim.case import Case
 from panelsim.conventions import DOF_NAMES, Dof, FloatArray
-from panelsim.files import write_whole
+from panelsim.errors import PanelsimError
+from panelsim.files import read_json_table, write_whole
 from panelsim.results.rms_tables import markdown_table
 from panelsim.studies.run_store import RunStore, run_key
 from panelsim.studies.tm2003_190.load_parts import PARTS, LoadParts, load_parts
@@ -108,8 +109,19 @@ def stored_parts(pairs: Sequence[Pair], store: RunStore) -> dict[str, LoadParts]
     for pair in pairs:
         path = parts_path(pair, store)
         if path.is_file():
-            told = json.loads(path.read_text())
-            found[pair.sea] = LoadParts(**{name: np.array(value) for name, value in told.items()})
+            found[pair.sea] = _read_parts(path)
+    return found
+
+
+def _read_parts(path: Path) -> LoadParts:
+    what, remedy = "The file of the parts of a load", "remove it, and start the command again"
+    told = read_json_table(path, what, remedy)
+    try:
+        found = LoadParts(*(np.array(told[name], dtype=np.float64) for name in ("rms", "shares", "missed")))
+    except (KeyError, TypeError, ValueError) as error:
+        raise PanelsimError(f"{what} is damaged", got=path, remedy=remedy) from error
+    if (found.rms.shape, found.shares.shape, found.missed.shape) != (*2 * ((len(PARTS), 6),), (6,)):
+        raise PanelsimError(f"{what} is damaged", got=path, remedy=remedy)
     return found
 
 

@@ -1,5 +1,6 @@
 """TM 2003-190 reproduced: the studies, their runs, and the page that is made of them."""
 
+import json
 import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -9,8 +10,8 @@ from tempfile import TemporaryDirectory
 
 from panelsim.case import Case
 from panelsim.errors import PanelsimError
-from panelsim.files import replacing, write_whole
-from panelsim.studies.computing import compute_runs
+from panelsim.files import read_json_table, replacing, write_whole
+from panelsim.studies.computing import compute_runs, require_cluster, require_processes
 from panelsim.studies.run_store import RunStore, StoredRun, run_key
 from panelsim.studies.tm2003_190.common import FULL, QUICK, Scope, base_case
 from panelsim.studies.tm2003_190.cost import Cost
@@ -28,6 +29,7 @@ from panelsim.studies.tm2003_190.time_step import TimeStep
 from panelsim.view.study_recording import record_study
 
 NAME = "tm2003-190"
+FILES = "files.json"  # in the folder of the page: which files are of it
 FOLDERS = ("pictures", "tables", "recordings")
 Progress = Callable[[str, float, float], None]  # key of the study, done, in all
 
@@ -90,8 +92,11 @@ class Reproduction:
 
         Raises PanelsimError for a folder of other runs, and as `compute_runs`.
         """
+        require_processes(workers, scheduler)
         note = open_runs_folder(self.runs, NAME, self.extent)
         cases, keys = self._missing_cases()
+        if cases:
+            require_cluster(scheduler)
         with timed(self.runs, note):
             compute_runs(
                 cases,
@@ -204,10 +209,28 @@ def _seeds(scope: Scope) -> str:
 
 def _replace(folder: Path, made: Path) -> None:
     """Put a page in the place of an older one, README.md last; other files in the folder stay."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for name in FOLDERS:
-        shutil.rmtree(folder / name, ignore_errors=True)
-        if (made / name).is_dir():
-            (made / name).rename(folder / name)
+    files = [
+        f"{path.parent.name}/{path.name}" for name in FOLDERS for path in sorted((made / name).glob("*"))
+    ]
+    for old in set(_files_of_page(folder)) - set(files):
+        (folder / old).unlink(missing_ok=True)
+    # Also what is being written now: were it stopped here, the next page would know of it.
+    write_whole(folder / FILES, json.dumps({"study": NAME, "files": files}, indent=1).encode())
+    for name in files:
+        with replacing(folder / name) as beside:
+            shutil.move(made / name, beside)
     with replacing(folder / "README.md") as beside:
         shutil.copyfile(made / "README.md", beside)
+
+
+def _files_of_page(folder: Path) -> list[str]:
+    """The files of the page in a folder, as "pictures/NAME"; of none where there is no page of ours."""
+    if not (folder / FILES).is_file():
+        return []
+    told = read_json_table(folder / FILES, "The list of the files of the page", "remove it")
+    names = told.get("files") if told.get("study") == NAME else None
+    return [
+        name
+        for name in (names if isinstance(names, list) else [])
+        if isinstance(name, str) and len(parts := name.split("/")) == 2 and parts[0] in FOLDERS
+    ]
