@@ -212,7 +212,9 @@ def test_growth_is_the_power_of_the_size() -> None:
 
 def test_a_row_has_the_median_of_its_rounds_and_their_spread() -> None:
     row = CostRow("r", "linear", 1, 1, (4.0, 1.0, 2.0), 0.0)
-    assert (row.median, row.spread) == (2.0, 1.5)
+    assert (row.median, row.spread, row.told_spread) == (2.0, 1.5, "150 %")
+    alone = CostRow("r", "linear", 1, 1, (4.0,), 0.0)
+    assert (alone.median, alone.told_spread) == (4.0, "–")
 
 
 def test_timings_are_kept_taken_up_again_and_cpu_over_simulated_time(tmp_path: Path) -> None:
@@ -339,6 +341,19 @@ def test_cost_leaves_a_page_that_is_the_same_when_made_again(panelsim: Called, t
     assert "number of components to the power" in kept["report.md"].decode()
     assert panelsim(*command, "--force")[0] == 0
     assert {file.name: file.read_bytes() for file in folder.iterdir() if file.is_file()} == kept
+
+
+def test_cost_of_a_case_that_cannot_be_timed_is_told_and_no_success(panelsim: Called, tmp_path: Path) -> None:
+    (tmp_path / "short.toml").write_text(CASE)
+    command = ["cost", "short.toml", "--components", "13", "--panel-areas", "80", "--rounds", 1]
+    code, out, _ = panelsim(*command)
+    assert code == 0 and "spread –" in out and "\n\n" not in out
+    page = (tmp_path / "runs/short-cost/report.md").read_text()
+    assert "One round, each run alone" in page and " 0 %" not in page
+    code, out, err = panelsim(*command, "--set", "run.capsize_angle_deg=0.01", "--force")
+    assert code == 3 and "capsized" in err and "report.md;" in out and "\n\n" not in out
+    left = {file.name for file in (tmp_path / "runs/short-cost").iterdir()}
+    assert left == {"report.md", "runs"}
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from panelsim.case import Case
-from panelsim.cli.options import Force, Overrides
+from panelsim.cli.options import EXIT_ENDED_EARLY, Force, Overrides
 from panelsim.cli.respond import numbers
 from panelsim.cli.show import progress_bars, say, warn
 from panelsim.cli.study import Out, study_folder, tell_files
@@ -55,10 +55,13 @@ def cost(
     rows = {what: cost_rows(cases, store, rounds=rounds) for what, cases in study.varied.items()}
     for row in rows["case"]:
         if row.failure is None:
-            say(f"{row.model}: {row.median:.2e} CPU s a simulated s, spread {100.0 * row.spread:.0f} %")
-    say(growth_in_words(rows))
+            say(f"{row.model}: {row.median:.2e} CPU s a simulated s, spread {row.told_spread}")
+    if powers := growth_in_words(rows):
+        say(powers)
     warn(f"{row.label}: {row.failure}" for of_what in rows.values() for row in of_what if row.failure)
     tell_files(folder, files)
+    if any(row.failure is not None for row in rows["case"]):
+        raise typer.Exit(EXIT_ENDED_EARLY)
 
 
 def _counts(text: str | None) -> list[int] | None:

@@ -153,13 +153,13 @@ def _body(table: Sequence[CostRow], longer: Sequence[CostRow], meshes: Sequence[
             f"{row.components}",
             f"{value:g}",
             f"{row.median:.2g}",
-            f"{row.spread:.0%}",
+            row.told_spread,
             f"{value / row.median:.0f}",
         ]
         for row, step, value in zip((*table, *longer), steps, published, strict=True)
     ]
     heads = ["model", "step [s]", "components", "the report", "here", "spread", "times less"]
-    by_mesh = [[row.label, f"{row.panels}", f"{row.median:.2g}", f"{row.spread:.0%}"] for row in meshes]
+    by_mesh = [[row.label, f"{row.panels}", f"{row.median:.2g}", row.told_spread] for row in meshes]
     compilation = max((row.compilation for row in (*table, *meshes) if not row.failure), default=0.0)
     return (
         "CPU seconds over simulated seconds:\n\n"
