@@ -274,6 +274,11 @@ def test_what_a_case_costs_by_default_and_by_wish() -> None:
     assert {case.file.run.duration for case in wished.cases} == {600.0}
 
 
+def test_few_components_are_timed_though_they_hold_little_of_the_sea() -> None:
+    study = case_cost(case_of(**{"seaway.minimum_energy": 0.97}), [3, 5], [60.0])
+    assert [case.seaway.components.count for case in study.varied["components"].values()] == [3, 3, 5, 5]
+
+
 def test_converge_leaves_a_page_that_is_the_same_when_made_again(
     panelsim: Called, tmp_path: Path, recorded: list[dict[str, object]]
 ) -> None:
@@ -360,12 +365,20 @@ def test_cost_of_a_case_that_cannot_be_timed_is_told_and_no_success(panelsim: Ca
     ("arguments", "told"),
     [
         (["converge", "time-step", "--steps", ""], "no range and no list of seconds"),
-        (["converge", "time-step", "--steps", "0.2,0.2"], "not different ones"),
+        (["converge", "time-step", "--steps", "0.2,0.2"], "Two of the time steps are the same"),
         (["converge", "time-step", "--steps", "0.2,0"], "not positive"),
         (["converge", "time-step", "--steps", "0.2,9"], "run.time_step"),
         (["converge", "time-step", "--steppers", ""], "exponential, rk4, ab3"),
         (["converge", "time-step", "--steppers", "euler"], "exponential, rk4, ab3"),
-        (["converge", "time-step", "--seeds", "0"], "needs a realization"),
+        (["converge", "time-step", "--steps", "0.2,0.20000001"], "first four digits"),
+        (["converge", "time-step", "--steps", "0.01:2:0.01"], "200: 0.01, 0.02, 0.03, 0.04, 0.05, 0.06,"
+         " 0.07, 0.08, … s\n  allowed: at most 30"),
+        (["converge", "time-step", "--seeds", "100000"], "400000 runs\n  allowed: at most 2000"),
+        (["compare", "linear-nonlinear", "--seeds", "1001"], "2002 runs"),
+        (["converge", "time-step", "--workers", "1000000"], "more workers than cores"),
+        (["cost", "--components", "10000000"], "10000000\n  allowed: different whole numbers from 2 to 5000"),
+        (["cost", "--components", "5,5"], "components are the same"),
+        (["converge", "time-step", "--seeds", "0"], "number of seeds"),
         (["converge", "time-step", "--set", "seaway.kind=calm"], "seaway"),
         (["converge", "time-step", "--workers", "0"], "workers"),
         (["compare", "linear-nonlinear", "--scheduler", "nowhere"], "tcp://"),
@@ -374,7 +387,7 @@ def test_cost_of_a_case_that_cannot_be_timed_is_told_and_no_success(panelsim: Ca
         (["converge", "mesh", "--set", "run.model=linear", "--rules", "panel"], "no pressure rule"),
         (["compare", "linear-nonlinear", "--set", "roll_damping.method=terms", "--set",
           "roll_damping.quadratic=1e8", "--set", "supplementary.damping={}"], "linearised_at_deg"),
-        (["cost", "--components", "1,5"], "different ones from 2 on"),
+        (["cost", "--components", "1,5"], "different whole numbers from 2 to"),
         (["cost", "--components", "1.5"], "whole numbers"),
         (["cost", "--components", ""], "no list of whole numbers"),
         (["cost", "--panel-areas", "0"], "not positive"),
