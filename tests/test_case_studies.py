@@ -213,7 +213,9 @@ def test_growth_is_the_power_of_the_size() -> None:
 
 def test_a_row_has_the_median_of_its_rounds_and_their_spread() -> None:
     row = CostRow("r", "linear", 1, 1, (4.0, 1.0, 2.0), 0.0)
-    assert (row.median, row.spread) == (2.0, 1.5)
+    assert (row.median, row.spread, row.told_spread) == (2.0, 1.5, "150 %")
+    alone = CostRow("r", "linear", 1, 1, (4.0,), 0.0)
+    assert (alone.median, alone.told_spread) == (4.0, "–")
 
 
 def test_timings_are_kept_taken_up_again_and_cpu_over_simulated_time(tmp_path: Path) -> None:
@@ -296,6 +298,11 @@ def test_what_a_case_costs_by_default_and_by_wish() -> None:
     assert {case.file.run.duration for case in wished.cases} == {600.0}
 
 
+def test_few_components_are_timed_though_they_hold_little_of_the_sea() -> None:
+    study = case_cost(case_of(**{"seaway.minimum_energy": 0.97}), [3, 5], [60.0])
+    assert [case.seaway.components.count for case in study.varied["components"].values()] == [3, 3, 5, 5]
+
+
 def test_converge_leaves_a_page_that_is_the_same_when_made_again(
     panelsim: Called, tmp_path: Path, recorded: list[dict[str, object]]
 ) -> None:
@@ -365,16 +372,37 @@ def test_cost_leaves_a_page_that_is_the_same_when_made_again(panelsim: Called, t
     assert {file.name: file.read_bytes() for file in folder.iterdir() if file.is_file()} == kept
 
 
+def test_cost_of_a_case_that_cannot_be_timed_is_told_and_no_success(panelsim: Called, tmp_path: Path) -> None:
+    (tmp_path / "short.toml").write_text(CASE)
+    command = ["cost", "short.toml", "--components", "13", "--panel-areas", "80", "--rounds", 1]
+    code, out, _ = panelsim(*command)
+    assert code == 0 and "spread –" in out and "\n\n" not in out
+    page = (tmp_path / "runs/short-cost/report.md").read_text()
+    assert "One round, each run alone" in page and " 0 %" not in page
+    code, out, err = panelsim(*command, "--set", "run.capsize_angle_deg=0.01", "--force")
+    assert code == 3 and "capsized" in err and "report.md;" in out and "\n\n" not in out
+    left = {file.name for file in (tmp_path / "runs/short-cost").iterdir()}
+    assert left == {"report.md", "runs"}
+
+
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
         (["converge", "time-step", "--steps", ""], "no range and no list of seconds"),
-        (["converge", "time-step", "--steps", "0.2,0.2"], "not different ones"),
+        (["converge", "time-step", "--steps", "0.2,0.2"], "Two of the time steps are the same"),
         (["converge", "time-step", "--steps", "0.2,0"], "not positive"),
         (["converge", "time-step", "--steps", "0.2,9"], "run.time_step"),
         (["converge", "time-step", "--steppers", ""], "exponential, rk4, ab3"),
         (["converge", "time-step", "--steppers", "euler"], "exponential, rk4, ab3"),
-        (["converge", "time-step", "--seeds", "0"], "needs a realization"),
+        (["converge", "time-step", "--steps", "0.2,0.20000001"], "first four digits"),
+        (["converge", "time-step", "--steps", "0.01:2:0.01"], "200: 0.01, 0.02, 0.03, 0.04, 0.05, 0.06,"
+         " 0.07, 0.08, … s\n  allowed: at most 30"),
+        (["converge", "time-step", "--seeds", "100000"], "400000 runs\n  allowed: at most 2000"),
+        (["compare", "linear-nonlinear", "--seeds", "1001"], "2002 runs"),
+        (["converge", "time-step", "--workers", "1000000"], "more workers than cores"),
+        (["cost", "--components", "10000000"], "10000000\n  allowed: different whole numbers from 2 to 5000"),
+        (["cost", "--components", "5,5"], "components are the same"),
+        (["converge", "time-step", "--seeds", "0"], "number of seeds"),
         (["converge", "time-step", "--set", "seaway.kind=calm"], "seaway"),
         (["converge", "time-step", "--workers", "0"], "workers"),
         (["compare", "linear-nonlinear", "--scheduler", "nowhere"], "tcp://"),
@@ -383,7 +411,7 @@ def test_cost_leaves_a_page_that_is_the_same_when_made_again(panelsim: Called, t
         (["converge", "mesh", "--set", "run.model=linear", "--rules", "panel"], "no pressure rule"),
         (["compare", "linear-nonlinear", "--set", "roll_damping.method=terms", "--set",
           "roll_damping.quadratic=1e8", "--set", "supplementary.damping={}"], "linearised_at_deg"),
-        (["cost", "--components", "1,5"], "different ones from 2 on"),
+        (["cost", "--components", "1,5"], "different whole numbers from 2 to"),
         (["cost", "--components", "1.5"], "whole numbers"),
         (["cost", "--components", ""], "no list of whole numbers"),
         (["cost", "--panel-areas", "0"], "not positive"),

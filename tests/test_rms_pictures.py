@@ -12,6 +12,7 @@ from panelsim.results.rms_study import RmsStudy, StudySea
 from panelsim.view.cost_picture import cost_picture
 from panelsim.view.model_picture import model_picture
 from panelsim.view.rms_pictures import rms_over_height, rms_over_levels
+from panelsim.view.study_lines import lines_of
 
 BASE = np.array([0.5, 0.02, 1.0, 0.001, 0.04, 0.03])  # m, rad; sway and roll are minor
 HEIGHTS = (4.0, 2.0, 6.0)  # in no order
@@ -80,15 +81,31 @@ def test_differences_over_levels_are_slopes_on_logarithmic_axes(tmp_path: Path, 
     assert axes[1].texts and not axes[0].texts
 
 
-def test_a_study_of_which_every_run_failed_can_be_drawn(tmp_path: Path) -> None:
+def test_a_study_of_which_every_run_failed_has_no_figures(tmp_path: Path, drawn: list[Figure]) -> None:
     nothing = study()
     nothing.rms[:] = np.nan
-    for path in (
-        rms_over_height(nothing, 30.0, tmp_path / "a.png"),
-        rms_over_levels(nothing, tmp_path / "b.png"),
-    ):
-        assert path.is_file()
-    assert model_picture(nothing, np.full(6, np.nan), tmp_path / "c.png").is_file()
+    assert rms_over_levels(nothing, tmp_path / "b.png") is None
+    assert model_picture(nothing, np.full(6, np.nan), tmp_path / "c.png") is None
+    assert not list(tmp_path.iterdir())
+    rms_over_height(nothing, 30.0, tmp_path / "a.png")
+    told = {text.get_text() for axis in drawn[0].axes for text in axis.texts}
+    assert told == {"no figures: the reference did not finish"}
+    assert {lines.name.partition(": ")[2] for lines in lines_of(nothing, 1)} == {"", "no figures"}
+
+
+def test_a_reference_that_failed_makes_nothing_minor(tmp_path: Path, drawn: list[Figure]) -> None:
+    some = study()
+    some.rms[2, 3:] = np.nan  # the reference, from 150°
+    assert some.unknown.tolist() == [False] * 3 + [True] * 3
+    rms_over_height(some, 150.0, tmp_path / "a.png")
+    assert drawn[0].axes[3].texts[0].get_text().startswith("no figures")
+    rms_over_levels(some, tmp_path / "b.png")
+    assert [bool(axis.texts) for axis in drawn[1].axes] == [False, True, False, True, False, False]
+    assert all(axis.texts[0].get_text().startswith("minor") for axis in drawn[1].axes if axis.texts)
+    # One model ran: its bars are drawn, and no difference is called minor.
+    some.rms[1] = np.nan
+    assert model_picture(some, np.full(6, np.nan), tmp_path / "c.png") is not None
+    assert [text.get_text() for axis in drawn[2].axes for text in axis.texts] == ["no figures"] * 6
 
 
 def test_models_stand_side_by_side_with_their_difference(tmp_path: Path, drawn: list[Figure]) -> None:

@@ -151,6 +151,7 @@ def test_polar_picture(found: xr.Dataset, drawn: list[Figure], tmp_path: Path) -
     # β = 60° comes from abaft the port beam: 240° clockwise from the bow; its mirror image is at 120°.
     assert np.rad2deg(crosses[0]).tolist() == pytest.approx([120.0, 240.0]) and list(crosses[1]) == [12, 12]
     assert "mirror image" in drawn[0].get_suptitle() and "✕" in drawn[0].get_suptitle()
+    assert "interpolated" in drawn[0].get_suptitle() and "there is none" not in drawn[0].get_suptitle()
 
 
 @pytest.mark.parametrize(
@@ -189,8 +190,33 @@ def test_pictures_over_one_key(found: xr.Dataset, drawn: list[Figure], tmp_path:
     )
     sweep_picture(words.drop_vars(HEADING), tmp_path / "words.png")
     assert [tick.get_text() for tick in drawn[1].axes[3].get_xticklabels()] == ["linear", "nonlinear"]
+    # Words and points stand inside the panels.
+    assert drawn[1].axes[3].get_xlim() == (-0.5, 1.5)
+    for figure in drawn:
+        for axis in figure.axes:
+            assert axis.get_ylim()[1] > 1.05 * max(axis.lines[0].get_ydata())
     assert sweep_picture(found.isel({HEADING: [0, 1]}), tmp_path / "none.png") is None
     assert {file.name for file in tmp_path.iterdir()} == {"line.png", "words.png"}
+
+
+def test_points_without_an_rms_are_no_points_at_zero(
+    found: xr.Dataset, drawn: list[Figure], tmp_path: Path
+) -> None:
+    gone = found.isel({HEADING: [1]}).copy(deep=True)
+    gone["capsized"][:] = [[1, 3]]
+    gone["realizations"][:] = [[2, 0]]
+    for name in ("rms", "rms_half_width"):
+        gone[name][0, 1] = np.nan
+    sweep_picture(gone, tmp_path / "line.png")
+    roll = drawn[0].axes[3]
+    (some, none) = (line for line in roll.lines if line.get_marker() == "x")
+    assert (list(some.get_xdata()), list(none.get_xdata())) == ([0], [12])
+    assert some.get_ydata()[0] == pytest.approx(roll.lines[0].get_ydata()[0])
+    # By its height in the panel, whatever the scale.
+    assert list(none.get_ydata()) == [0.97] and none.get_transform() == roll.get_xaxis_transform()
+    assert "or there is none" in drawn[0].get_suptitle()
+    gone["realizations"][:] = 0
+    assert sweep_picture(gone, tmp_path / "nothing.png") is None
 
 
 @pytest.fixture

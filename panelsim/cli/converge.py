@@ -1,6 +1,5 @@
 """The commands `converge time-step` and `converge mesh`: how fine the steps or panels of a case must be."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -44,8 +43,8 @@ def time_step(
     """
     require_processes(workers, scheduler)
     case = Case.load(case_file, overrides or ())
-    values = () if steps is None else numbers("--steps", steps, "seconds", example="0.1,0.2,0.5")
-    study = time_step_convergence(case, list(values), words(steppers), seeds)
+    values = None if steps is None else list(numbers("--steps", steps, "seconds", example="0.1,0.2,0.5"))
+    study = time_step_convergence(case, values, words(steppers), seeds)
     _converge(study, out_folder, workers, scheduler, force=force)
 
 
@@ -72,9 +71,7 @@ def mesh(
     """
     require_processes(workers, scheduler)
     case = Case.load(case_file, overrides or ())
-    values: Sequence[float] = (
-        () if panel_areas is None else list(numbers("--panel-areas", panel_areas, "m2", example="5,2.5,1"))
-    )
+    values = None if panel_areas is None else list(numbers("--panel-areas", panel_areas, "m2", "5,2.5,1"))
     _converge(
         mesh_convergence(case, values, words(rules), seeds), out_folder, workers, scheduler, force=force
     )

@@ -6,16 +6,17 @@ from typing import Annotated
 import typer
 
 from panelsim.case import Case
-from panelsim.cli.options import Force, Overrides
+from panelsim.cli.options import EXIT_ENDED_EARLY, Force, Overrides
 from panelsim.cli.respond import numbers
 from panelsim.cli.show import progress_bars, say, warn
 from panelsim.cli.study import Out, study_folder, tell_files
-from panelsim.errors import PanelsimError
 from panelsim.studies.case_cost import case_cost
 from panelsim.studies.cost import ROUNDS, cost_rows, measure_costs
 from panelsim.studies.output_folder import make_output_folder
 from panelsim.studies.study_page import RUNS
 from panelsim.studies.timing_store import TimingStore
+
+_COUNTS = "whole numbers", "19,37,160"
 
 
 def cost(
@@ -40,7 +41,8 @@ def cost(
     """
     case = Case.load(case_file, overrides or ())
     areas = None if panel_areas is None else list(numbers("--panel-areas", panel_areas, "m2", "5,2.5,1"))
-    study = case_cost(case, _counts(components), areas)
+    counts = None if components is None else list(numbers("--components", components, *_COUNTS))
+    study = case_cost(case, counts, areas)
     folder = study_folder(case, "cost", out_folder, force=force)
     _ = case.supplementary, case.points  # whatever is wrong with them comes first
     warn(case.warnings())
@@ -55,17 +57,10 @@ def cost(
     rows = {what: cost_rows(cases, store, rounds=rounds) for what, cases in study.varied.items()}
     for row in rows["case"]:
         if row.failure is None:
-            say(f"{row.model}: {row.median:.2e} CPU s a simulated s, spread {100.0 * row.spread:.0f} %")
-    say(growth_in_words(rows))
+            say(f"{row.model}: {row.median:.2e} CPU s a simulated s, spread {row.told_spread}")
+    if powers := growth_in_words(rows):
+        say(powers)
     warn(f"{row.label}: {row.failure}" for of_what in rows.values() for row in of_what if row.failure)
     tell_files(folder, files)
-
-
-def _counts(text: str | None) -> list[int] | None:
-    """Whole numbers from a list or a range."""
-    if text is None:
-        return None
-    values = numbers("--components", text, "whole numbers", "19,37,160")
-    if (values != values.round()).any():
-        raise PanelsimError("--components are not whole numbers", got=text, allowed="for example 19,37,160")
-    return [int(value) for value in values]
+    if any(row.failure is not None for row in rows["case"]):
+        raise typer.Exit(EXIT_ENDED_EARLY)

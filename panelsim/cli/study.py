@@ -37,9 +37,9 @@ def make_runs(cases: Sequence[Case], folder: Path, workers: int | None, schedule
     return store
 
 
-def words(text: str | None) -> list[str]:
-    """The words of a list with commas."""
-    return [] if text is None else [word.strip() for word in text.split(",")]
+def words(text: str | None) -> list[str] | None:
+    """The words of a list with commas, if there is one."""
+    return None if text is None else [word.strip() for word in text.split(",")]
 
 
 def tell_files(folder: Path, files: Sequence[str]) -> None:

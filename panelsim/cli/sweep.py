@@ -12,11 +12,12 @@ from panelsim.case import Case
 from panelsim.cli.options import EXIT_ENDED_EARLY, Force, Overrides
 from panelsim.cli.show import err, out, progress_bars, warn
 from panelsim.cli.show_sweep import ended_early, show_sweep
+from panelsim.studies.arguments import MOST_RUNS
 from panelsim.studies.axes import Axis, require_axes
 from panelsim.studies.computing import require_cluster, require_processes
 from panelsim.studies.sweep import run_sweep
 from panelsim.studies.sweep_folder import SweepFolder
-from panelsim.studies.sweep_plan import MOST_RUNS, plan_sweep
+from panelsim.studies.sweep_plan import plan_sweep
 
 Workers = Annotated[
     int | None, typer.Option(metavar="N", help="Processes; as many as there are cores if not given.")

@@ -52,10 +52,15 @@ class RmsStudy:
 
     @property
     def major(self) -> np.ndarray:
-        """Which modes (S, 6) count in each sea, by the reference."""
+        """Which modes (S, 6) count in each sea, by the reference; none where that has no figures."""
         rms = self.pooled[self.reference]
         largest = np.repeat(np.stack([rms[:, :3].max(axis=1), rms[:, 3:].max(axis=1)], axis=1), 3, axis=1)
         return np.asarray(rms >= MINOR * largest)
+
+    @property
+    def unknown(self) -> np.ndarray:
+        """Seas (S,) of which the reference has no figures, so that nothing can be said of any mode."""
+        return np.asarray(np.isnan(self.pooled[self.reference]).all(axis=1))
 
     @property
     def difference(self) -> FloatArray:

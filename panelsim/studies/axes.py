@@ -5,7 +5,7 @@ import tomllib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from panelsim.errors import PanelsimError
+from panelsim.errors import PanelsimError, require_kind
 
 Value = float | int | str | bool
 
@@ -35,8 +35,16 @@ class Axis:
     values: tuple[Value, ...]
 
     def __post_init__(self) -> None:
+        require_kind("key of an axis", self.key, str, '"run.speed_knots", for example')
         if not self.values:
             raise PanelsimError(f"There are no values of {self.key}", got="an empty list", allowed=_EXAMPLE)
+        for value in self.values:
+            if not isinstance(value, float | int | str):  # a table has no place on an axis of a dataset
+                raise PanelsimError(
+                    f"A value of {self.key} is of another kind",
+                    got=" ".join(repr(value).split())[:60],
+                    allowed="a number, a word, True or False",
+                )
         twice = [value for i, value in enumerate(self.values) if value in self.values[:i]]
         if twice:
             raise PanelsimError(

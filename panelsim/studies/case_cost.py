@@ -5,10 +5,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from panelsim.case import Case
+from panelsim.case.seaway_schema import MOST_FREQUENCIES
 from panelsim.errors import PanelsimError
 from panelsim.seaway.random import RandomSeaway
 from panelsim.ship.bundled import default_panel_area
-from panelsim.studies.convergence import falling, require_panels
+from panelsim.studies.arguments import real_numbers, require_case
+from panelsim.studies.convergence import SHOWN, falling, require_panels
 from panelsim.studies.linear_nonlinear import models_of
 
 FREQUENCY_FACTORS = (1, 2, 4)
@@ -65,6 +67,7 @@ def case_cost(
     What the case cannot vary is left out where it was not asked for. Raises PanelsimError for numbers that no
     case may have, for frequencies of a sea that is not random, and for panel areas of a mesh file.
     """
+    require_case(case)
     found = CaseCost(case, tuple(_frequencies(case, frequencies)), tuple(_areas(case, panel_areas)))
     _ = found.varied  # what no case may have is refused before anything is run
     return found
@@ -84,12 +87,19 @@ def _frequencies(case: Case, given: Sequence[int] | None) -> list[int]:
     if given is None:
         own = sea.components.count if sea.directional_spectrum is None else _own_count(case)
         return [factor * own for factor in FREQUENCY_FACTORS]
-    if min(given) < 2 or len(set(given)) < len(given):
-        told = ", ".join(map(str, given))
+    counts = real_numbers("numbers of components", given)
+    told = ", ".join(f"{count:.9g}" for count in counts[:SHOWN])
+    if not all(2 <= count <= MOST_FREQUENCIES and count == round(count) for count in counts):
         raise PanelsimError(
-            "The numbers of components cannot be", got=told, allowed="different ones from 2 on"
+            "The numbers of components cannot be",
+            got=told,
+            allowed=f"different whole numbers from 2 to {MOST_FREQUENCIES}",
         )
-    return sorted(given)
+    if len(set(counts)) < len(counts):
+        raise PanelsimError(
+            "Two of the numbers of components are the same", got=told, remedy="give each once"
+        )
+    return sorted(map(int, counts))
 
 
 def _own_count(case: Case) -> int:
@@ -102,14 +112,14 @@ def _own_count(case: Case) -> int:
 
 
 def _with(case: Case, count: int) -> Case:
-    """The case with so many wave frequencies between the same ends."""
+    """The case with so many wave frequencies between the same ends, however much energy a few may miss."""
     section = case.file.seaway.frequencies
     assert section is not None
     if section.choice == "equal-energy":
-        return case.changed({"seaway.frequencies.count": count})
+        return case.changed({"seaway.frequencies.count": count, "seaway.minimum_energy": 0.0})
     assert section.start is not None and section.stop is not None
     step = (section.stop - section.start) / (count - 1)
-    return case.changed({"seaway.frequencies.step": step})
+    return case.changed({"seaway.frequencies.step": step, "seaway.minimum_energy": 0.0})
 
 
 def _areas(case: Case, given: Sequence[float] | None) -> Sequence[float]:

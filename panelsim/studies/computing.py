@@ -1,13 +1,15 @@
 """Runs of a study, in as many processes as there are cores; those that are stored are not made again."""
 
+import os
 from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import closing, suppress
 from typing import TYPE_CHECKING
 
 from panelsim.case import Case
-from panelsim.errors import PanelsimError
+from panelsim.errors import PanelsimError, require_kind
 from panelsim.hydro.store import database_for, stored_database
+from panelsim.studies.arguments import whole_number
 from panelsim.studies.cluster import local_client, require_address, scheduler_client
 from panelsim.studies.groups import Answer, Failure, Request, groups_of, make_group
 from panelsim.studies.run_store import RunStore, run_key
@@ -19,6 +21,8 @@ Progress = Callable[[float, float], None]  # runs done, runs in all
 Answers = Generator[tuple[Sequence[Case], Sequence[Answer]], None, None]
 
 MOST_TOGETHER = 8  # more gain little (docs/batches.md)
+CORES = os.cpu_count() or 1
+MOST_A_CORE = 8  # workers; each takes some 300 MB
 TASKS_A_WORKER = 4  # at least, where there are so many runs: the last ones to end leave few cores idle
 LOST = Failure(
     "The processes that made the run were lost, again and again. Their memory may not suffice: try fewer"
@@ -52,7 +56,7 @@ def compute_runs(
     are no whole number above 0.
     """
     require_processes(workers, scheduler)
-    _require_count("group", group)
+    group = whole_number("number of runs in a group", group)
     missing = list({run_key(case): case for case in cases if case not in store}.values())
     if not missing:
         return
@@ -77,23 +81,22 @@ def require_cluster(scheduler: str | None) -> None:
 
 def require_processes(workers: int | None, scheduler: str | None) -> None:
     """Raise PanelsimError for a number of processes, or an address of a cluster, that cannot be."""
-    if workers is not None:
-        _require_count("workers", workers)
+    if workers is not None and whole_number("number of workers", workers) > (most := MOST_A_CORE * CORES):
+        raise PanelsimError(
+            "There are far more workers than cores",
+            got=f"{workers} on {CORES} cores",
+            allowed=f"1 to {most}",
+            remedy="leave their number out: there are then as many as cores",
+        )
     if scheduler is None:
         return
+    require_kind("address of the scheduler", scheduler, str, '"tcp://HOST:PORT"')
     require_address(scheduler)
     if workers is not None:
         raise PanelsimError(
             "A cluster that runs already has its own workers",
             got=f"workers {workers}, scheduler {scheduler}",
             remedy="leave out the number of workers",
-        )
-
-
-def _require_count(name: str, count: int) -> None:
-    if not isinstance(count, int) or isinstance(count, bool) or count < 1:
-        raise PanelsimError(
-            f"The number of {name} is not possible", got=repr(count)[:60], allowed="1, 2, 3, …"
         )
 
 

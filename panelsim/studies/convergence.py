@@ -16,6 +16,7 @@ from panelsim.results.convergence_order import ConvergenceOrder, convergence_ord
 from panelsim.results.rms_study import RmsStudy
 from panelsim.results.verdicts import IDENTICAL, worst_difference
 from panelsim.ship.bundled import default_panel_area
+from panelsim.studies.arguments import listed, real_numbers, require_case, require_few_runs
 from panelsim.studies.rms_of_runs import rms_of_runs
 from panelsim.studies.run_store import RunStore
 from panelsim.studies.study_sea import realization, require_seeds, study_sea
@@ -25,6 +26,7 @@ AREA_FACTORS = (0.5, 1.0, 2.0, 4.0)
 # The reference is finer than the finest: half its step, half its panel area.
 FINER = 0.5
 MOST_LEVELS = 30
+SHOWN = 8  # values in a message
 ROUND_OFF = 1e-9
 
 
@@ -61,6 +63,7 @@ class Convergence:
     def _cases(self) -> dict[tuple[str, float, int], Case]:
         """Every case by scheme, value and realization."""
         levels = [(scheme, value) for scheme in self.schemes for value in self.values]
+        require_few_runs((len(levels) + 1) * self.seeds)
         found = {}
         for scheme, value in [(self.schemes[0], self.reference), *levels]:
             changes: dict[str, Any] = {self.value_key: value}
@@ -121,14 +124,19 @@ def recommended(study: RmsStudy) -> float | None:
 
 
 def time_step_convergence(
-    case: Case, steps: Sequence[float] = (), steppers: Sequence[str] = (), seeds: int = 1
+    case: Case,
+    steps: Sequence[float] | None = None,
+    steppers: Sequence[str] | None = None,
+    seeds: int = 1,
 ) -> Convergence:
     """Time steps [s], by default half, once and twice that of the case; steppers, by default its own.
 
     Raises PanelsimError for steps and steppers that no run may have, and for a sea without waves or seeds.
     """
-    _require_sea(case, seeds)
+    seeds = _seeds(case, seeds)
     own = case.file.run.time_step
+    if steps is None:
+        steps = [factor * own for factor in STEP_FACTORS]
     study = Convergence(
         key="time-step",
         title="Time step",
@@ -136,9 +144,9 @@ def time_step_convergence(
         unit="s",
         case=case,
         value_key="run.time_step",
-        values=falling("time steps", steps or [factor * own for factor in STEP_FACTORS], "s"),
+        values=falling("time steps", steps, "s"),
         scheme_key="run.stepper",
-        schemes=_different("steppers", steppers or [case.file.run.stepper], tuple(LONGEST_STEP)),
+        schemes=_different("steppers", steppers, case.file.run.stepper, tuple(LONGEST_STEP)),
         seeds=seeds,
     )
     _ = study.cases  # what no case may have is refused before anything is run
@@ -146,7 +154,10 @@ def time_step_convergence(
 
 
 def mesh_convergence(
-    case: Case, panel_areas: Sequence[float] = (), rules: Sequence[str] = (), seeds: int = 1
+    case: Case,
+    panel_areas: Sequence[float] | None = None,
+    rules: Sequence[str] | None = None,
+    seeds: int = 1,
 ) -> Convergence:
     """Panel areas [m²], by default half, once, twice and four times those of the ship; pressure rules.
 
@@ -154,14 +165,15 @@ def mesh_convergence(
     PanelsimError for areas and rules that no ship or run may have, for a ship of a mesh file, which has its
     own panels, for pressure rules of a linear case, and for a sea without waves or seeds.
     """
-    _require_sea(case, seeds)
+    seeds = _seeds(case, seeds)
     run = case.file.run
-    if rules and run.model == "linear":
+    if rules is not None and run.model == "linear":
         raise PanelsimError(
             "The linear model integrates no pressure over the wet panels, and has no pressure rule",
-            got=f'run.model = "linear" with rules {", ".join(rules)}',
+            got=f'run.model = "linear" with rules {", ".join(map(str, rules))}',
             remedy="leave the rules out, or set run.model to nonlinear",
         )
+    require_panels(case)
     study = Convergence(
         key="mesh",
         title="Panels",
@@ -169,12 +181,11 @@ def mesh_convergence(
         unit="m2",
         case=case,
         value_key="ship.panel_area",
-        values=falling("panel areas", panel_areas or _areas_about_own(case), "m2"),
+        values=falling("panel areas", _areas_about_own(case) if panel_areas is None else panel_areas, "m2"),
         scheme_key="run.pressure_rule",
-        schemes=_different("pressure rules", rules or [run.pressure_rule], RULES),
+        schemes=_different("pressure rules", rules, run.pressure_rule, RULES),
         seeds=seeds,
     )
-    require_panels(case)
     _ = study.cases
     return study
 
@@ -185,7 +196,6 @@ def _words_of(key: str) -> str:
 
 
 def _areas_about_own(case: Case) -> list[float]:
-    require_panels(case)
     form = case.ship.form
     assert form is not None
     own = case.file.ship.panel_area or default_panel_area(form)
@@ -204,30 +214,38 @@ def require_panels(case: Case) -> None:
         )
 
 
-def _require_sea(case: Case, seeds: int) -> None:
+def _seeds(case: Case, seeds: int) -> int:
+    require_case(case)
     study_sea(case)
-    require_seeds(case, seeds)
+    return require_seeds(case, seeds)
 
 
 def falling(what: str, values: Sequence[float], unit: str) -> tuple[float, ...]:
     """Values that differ, are positive and not too many, the largest first."""
-    told = ", ".join(f"{value:g}" for value in values)
-    if not all(np.isfinite(value) and value > 0.0 for value in values):
-        raise PanelsimError(f"The {what} are not positive", got=f"{told} {unit}", allowed="more than 0")
-    if len(set(values)) < len(values) or len(values) > MOST_LEVELS:
+    given = real_numbers(what, values)
+    told = f"{', '.join(f'{value:.9g}' for value in given[:SHOWN])}{', …' * (len(given) > SHOWN)} {unit}"
+    if len(given) > MOST_LEVELS:
         raise PanelsimError(
-            f"The {what} are not different ones, {MOST_LEVELS} at most",
-            got=f"{told} {unit}",
+            f"There are too many {what}", got=f"{len(given)}: {told}", allowed=f"at most {MOST_LEVELS}"
+        )
+    if not all(np.isfinite(value) and value > 0.0 for value in given):
+        raise PanelsimError(f"The {what} are not positive", got=told, allowed="more than 0")
+    if len({f"{value:.4g}" for value in given}) < len(given):
+        raise PanelsimError(
+            f"Two of the {what} are the same",
+            got=told,
+            allowed="values that differ in their first four digits",
             remedy="give each once",
         )
-    return tuple(sorted((float(value) for value in values), reverse=True))
+    return tuple(sorted(given, reverse=True))
 
 
-def _different(what: str, words: Sequence[str], known: tuple[str, ...]) -> tuple[str, ...]:
-    if len(set(words)) < len(words) or not set(words) <= set(known):
-        raise PanelsimError(
-            f"The {what} are not different ones of those that there are",
-            got=", ".join(words),
-            allowed=", ".join(known),
-        )
-    return tuple(words)
+def _different(what: str, words: Sequence[str] | None, own: str, known: tuple[str, ...]) -> tuple[str, ...]:
+    """Words of those that are known, each once; that of the case where none are given."""
+    given = (own,) if words is None else tuple(map(str, listed(what, words, ", ".join(known))))
+    unknown = [f'"{word}"' for word in given if word not in known]
+    if unknown:
+        raise PanelsimError(f"Not all {what} are known", got=", ".join(unknown), allowed=", ".join(known))
+    if len(set(given)) < len(given):
+        raise PanelsimError(f"Two of the {what} are the same", got=", ".join(given), remedy="give each once")
+    return given

@@ -35,12 +35,15 @@ def write_convergence(study: Convergence, store: RunStore, folder: Path) -> tupl
     for scheme in (*LONGEST_STEP, *RULES):  # of others, whose page this one takes the place of
         (folder / _picture_name(scheme)).unlink(missing_ok=True)
     for scheme, rms in found.items():
-        rms_over_levels(rms, folder / pictures[scheme])
+        if rms_over_levels(rms, folder / pictures[scheme]) is None:
+            del pictures[scheme]
     write_whole(folder / TABLE, _csv(found).encode())
     parts = [_question(study), "## Set-up", _setup(study), "## Result", convergence_in_words(study, found)]
     for scheme, rms in found.items():
         parts += [f"### {scheme}", difference_markdown(rms), study.order(rms, scheme).told]
-        parts += [f"![{rms.title}: differences from the reference]({pictures[scheme]})", rms_markdown(rms)]
+        if scheme in pictures:
+            parts.append(f"![{rms.title}: differences from the reference]({pictures[scheme]})")
+        parts.append(rms_markdown(rms))
     parts += ["## Runs", failures_markdown(failed_runs(study, found))]
     record_study(
         folder / RECORDING,

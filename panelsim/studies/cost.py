@@ -39,8 +39,13 @@ class CostRow:
 
     @property
     def spread(self) -> float:
-        """Slowest less quickest round, over the median."""
-        return float(np.ptp(self.cpu_per_second)) / self.median if self.cpu_per_second else np.nan
+        """Slowest less quickest round, over the median; NaN where there are no two."""
+        return float(np.ptp(self.cpu_per_second)) / self.median if len(self.cpu_per_second) > 1 else np.nan
+
+    @property
+    def told_spread(self) -> str:
+        """The spread in per cent, or a dash."""
+        return "–" if np.isnan(self.spread) else f"{100.0 * self.spread:.0f} %"
 
 
 @dataclass(frozen=True)

@@ -25,40 +25,45 @@ VARIED = ("components", "panels")
 def write_cost(study: CaseCost, store: TimingStore, folder: Path, *, rounds: int) -> tuple[str, ...]:
     """Write report.md, cost.csv and, where something was varied, cost.png into the folder; times nothing.
 
+    Only the page where nothing could be timed.
+
     Returns the names of the files. Raises PanelsimError where a round is not stored.
     """
     rows = {what: cost_rows(cases, store, rounds=rounds) for what, cases in study.varied.items()}
     every = [row for of_what in rows.values() for row in of_what]
-    write_whole(folder / TABLE, _csv(every).encode())
     lines = _lines(rows)
+    taken = "One round" if rounds == 1 else f"The median of {rounds} rounds, in which all runs took turns"
     parts = [
         "What does a simulated second cost? CPU seconds of the time loop, over simulated seconds; compilation"
-        f" and set-up apart. The median of {rounds} rounds, in which all runs took turns, each alone.",
+        f" and set-up apart. {taken}, each run alone.",
         "## Set-up",
         setup_markdown(study.case, {"timed": f"{LONGEST:g} s at most of each run, alone"}),
         "## Result",
         cost_markdown(every),
         growth_in_words(rows),
     ]
-    (folder / PICTURE).unlink(missing_ok=True)  # that of another page
+    for old in (TABLE, PICTURE):  # those of another page
+        (folder / old).unlink(missing_ok=True)
+    if any(row.cpu_per_second for row in every):
+        write_whole(folder / TABLE, _csv(every).encode())
     if lines:
         cost_picture(lines, folder / PICTURE)
         parts.append(f"![CPU over simulated time]({PICTURE})")
     failures = (f"{row.label}: {row.failure}" for row in every if row.failure is not None)
     write_page(folder, f"Cost: {study.case.name}", [*parts, "## Runs", failures_markdown(failures)])
-    return (PAGE, TABLE, PICTURE) if lines else (PAGE, TABLE)
+    return tuple(name for name in (PAGE, TABLE, PICTURE) if (folder / name).is_file())
 
 
 def cost_markdown(rows: Sequence[CostRow]) -> str:
     """A row a case: sizes, CPU over simulated time, how that scatters, and what compilation took."""
     heads = [
-        *("run", "components", "panels", "CPU s a simulated s", "spread [%]"),
+        *("run", "components", "panels", "CPU s a simulated s", "spread"),
         *("times faster than real time", "compilation and set-up [s]"),
     ]
     cells = [
         [
             row.label,
-            *(str(row.components), str(row.panels), f"{row.median:.2e}", f"{100.0 * row.spread:.0f}"),
+            *(str(row.components), str(row.panels), f"{row.median:.2e}", row.told_spread),
             *(f"{1.0 / row.median:.0f}", f"{row.compilation:.1f}"),
         ]
         if row.cpu_per_second

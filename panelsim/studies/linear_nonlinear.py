@@ -15,6 +15,7 @@ from panelsim.response.response import response
 from panelsim.response.sampling import variance_scatter
 from panelsim.results.rms_study import RmsStudy
 from panelsim.seaway.random import RandomSeaway
+from panelsim.studies.arguments import require_case, require_few_runs
 from panelsim.studies.case_response import in_case_sea
 from panelsim.studies.rms_of_runs import rms_of_runs
 from panelsim.studies.run_store import RunStore
@@ -32,8 +33,10 @@ class LinearNonlinear:
     seeds: int
 
     def __post_init__(self) -> None:
+        require_case(self.case)
         study_sea(self.case)
-        require_seeds(self.case, self.seeds)
+        object.__setattr__(self, "seeds", require_seeds(self.case, self.seeds))
+        require_few_runs(len(MODELS) * self.seeds)
 
     @cached_property
     def models(self) -> tuple[Case, Case]:

@@ -31,7 +31,8 @@ def write_linear_nonlinear(
     """
     rms = study.study(store)
     write_whole(folder / TABLE, rms_csv(rms).encode())
-    model_picture(rms, difference_band(rms)[1, 0], folder / PICTURE)
+    (folder / PICTURE).unlink(missing_ok=True)
+    drawn = model_picture(rms, difference_band(rms)[1, 0], folder / PICTURE)
     title = f"Linear against nonlinear: {study.case.name}"
     series = {
         model: store.load(case)
@@ -49,14 +50,14 @@ def write_linear_nonlinear(
         "## Result",
         verdict,
         _table(rms),
-        f"![RMS in both models, and their difference]({PICTURE})",
+        f"![RMS in both models, and their difference]({PICTURE})" if drawn else "",
         "## The linear runs against the frequency domain",
         _against_frequency_domain(study, rms, database),
         "## Runs",
         failures_markdown(rms.failures),
     ]
     write_page(folder, title, parts)
-    return PAGE, TABLE, PICTURE, RECORDING
+    return PAGE, TABLE, *([PICTURE] if drawn else []), RECORDING
 
 
 def models_in_words(rms: RmsStudy) -> str:
@@ -86,8 +87,8 @@ def _table(rms: RmsStudy) -> str:
     rows = []
     for mode, name in enumerate(DOF_NAMES):
         sure = "" if np.isnan(band[mode]) else f" ± {band[mode]:.2g}"
-        minor = "minor" if not rms.major[0, mode] else "–"
-        told = minor if np.isnan(difference[mode]) else f"{difference[mode]:+.2f}{sure}"
+        known = not np.isnan(rms.pooled[:, 0, mode]).any()
+        told = ("minor" if known else "–") if np.isnan(difference[mode]) else f"{difference[mode]:+.2f}{sure}"
         called = "" if np.isnan(difference[mode]) else words(rms.difference[1, 0, mode])
         rows.append(
             [

@@ -23,7 +23,7 @@ from panelsim.case import Case
 from panelsim.case.ship_section import beside, ship_files
 from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
-from panelsim.files import read_json_table, write_whole
+from panelsim.files import as_path, read_json_table, write_whole
 from panelsim.motion.history import History
 
 panelsim_version = cache(lambda: version("panelsim"))  # to look it up takes as long as to read a run
@@ -89,8 +89,8 @@ class StoredRun:
 class RunStore:
     """A folder of runs."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    def __init__(self, folder: str | Path) -> None:
+        self.folder = as_path(folder)
         self._lost: dict[str, str] = {}
         self._rms: dict[str, tuple[FloatArray, str | None]] = {}
 

@@ -6,6 +6,7 @@ from panelsim.case import Case
 from panelsim.errors import PanelsimError
 from panelsim.results.rms_study import StudySea
 from panelsim.seaway.random import RandomSeaway
+from panelsim.studies.arguments import whole_number
 from panelsim.studies.case_response import own_heading
 
 
@@ -36,10 +37,9 @@ def realization(case: Case, index: int) -> Case:
     return case if index == 0 else case.changed({"seaway.seed": case.file.seaway.seed + index})
 
 
-def require_seeds(case: Case, seeds: int) -> None:
-    """Raise PanelsimError for a number of realizations that the sea of a case does not have."""
-    if seeds < 1:
-        raise PanelsimError("A study needs a realization", got=f"{seeds} seeds", allowed="1 or more")
+def require_seeds(case: Case, seeds: int) -> int:
+    """The number of realizations; PanelsimError for one that the sea of a case does not have."""
+    seeds = whole_number("number of seeds", seeds)
     if seeds > 1 and not isinstance(case.seaway, RandomSeaway):
         raise PanelsimError(
             "The sea of the case has one realization only",
@@ -47,3 +47,4 @@ def require_seeds(case: Case, seeds: int) -> None:
             allowed="1",
             remedy="leave --seeds out, or take a random sea",
         )
+    return seeds

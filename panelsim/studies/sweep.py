@@ -1,19 +1,20 @@
 """Sweeps: a case with other values of some keys, in seas of several seeds, and statistics over them all."""
 
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
 from panelsim.case import Case
 from panelsim.errors import require_kind
+from panelsim.files import as_path
+from panelsim.studies.arguments import MOST_RUNS, listed, require_case
 from panelsim.studies.axes import Axis, Value
 from panelsim.studies.computing import Progress, compute_runs
 from panelsim.studies.run_store import RunStore
-from panelsim.studies.sweep_plan import MOST_RUNS, SweepPlan, plan_sweep
+from panelsim.studies.sweep_plan import SweepPlan, plan_sweep
 from panelsim.studies.sweep_statistics import sweep_dataset
 
 
@@ -36,22 +37,18 @@ def sweep(
 
     Raises PanelsimError as `plan_sweep` and `compute_runs`, and where no run could be made.
     """
-    require_kind("case", case, Case, "a Case, as Case.load reads it")
-    require_kind("axes", axes, Mapping, '{"run.speed_knots": [0, 10, 20]}')
+    require_case(case)
+    require_kind("mapping of axes", axes, Mapping, '{"run.speed_knots": [0, 10, 20]}')
+    require_kind("progress", progress, Callable | None, "a function of runs done and runs in all")  # type: ignore[arg-type]
+    place = None if folder is None else as_path(folder)
+    found = {key: listed(f"values of {key}", values, "a list") for key, values in axes.items()}
     plan = plan_sweep(
-        case, [Axis(key, _plain(values)) for key, values in axes.items()], seeds, most_runs=most_runs
+        case, [Axis(key, tuple(values)) for key, values in found.items()], seeds, most_runs=most_runs
     )
     with ExitStack() as stack:
-        if folder is None:
-            folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="panelsim-"))
-        return run_sweep(
-            plan, RunStore(Path(folder)), workers=workers, scheduler=scheduler, progress=progress
-        )
-
-
-def _plain(values: Iterable[Value]) -> tuple[Value, ...]:
-    """Values as a case file has them, whatever numbers NumPy made of them."""
-    return tuple(value.item() if isinstance(value, np.generic) else value for value in values)
+        if place is None:
+            place = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="panelsim-")))
+        return run_sweep(plan, RunStore(place), workers=workers, scheduler=scheduler, progress=progress)
 
 
 def run_sweep(

@@ -8,9 +8,9 @@ import numpy as np
 
 from panelsim.case import Case
 from panelsim.errors import PanelsimError
+from panelsim.studies.arguments import MOST_RUNS, whole_number
 from panelsim.studies.axes import Axis, Value, require_axes
 
-MOST_RUNS = 2000  # unless the caller says that more are meant
 SEEDED = ("random", "dataset")
 
 
@@ -53,8 +53,7 @@ def plan_sweep(case: Case, axes: Sequence[Axis], seeds: int = 1, *, most_runs: i
     has none, and for more than `most_runs` runs.
     """
     require_axes(axes)
-    if not isinstance(seeds, int) or isinstance(seeds, bool) or seeds < 1:
-        raise PanelsimError("The number of seeds is not possible", got=repr(seeds)[:60], allowed="1, 2, 3, …")
+    seeds, most_runs = whole_number("number of seeds", seeds), whole_number("number of most_runs", most_runs)
     first = case.file.seaway.seed
     plan = SweepPlan(case, tuple(axes), tuple(range(first, first + seeds)))
     runs = int(np.prod(plan.shape))

@@ -12,11 +12,14 @@ from panelsim.results.statistics import display_unit
 from panelsim.view.plots import COLORS, INK, plain, save
 
 
-def model_picture(study: RmsStudy, band: FloatArray, path: Path) -> Path:
+def model_picture(study: RmsStudy, band: FloatArray, path: Path) -> Path | None:
     """Translations and rotations in the two levels of the first sea; below, their difference.
 
-    `band` (6,) is the half width of that of the difference, a share; NaN where it is not known.
+    `band` (6,) is the half width of that of the difference, a share; NaN where it is not known. None where no
+    run of either finished.
     """
+    if np.isnan(study.pooled[:, 0]).all():
+        return None
     figure = Figure(figsize=(10, 6.5), layout="constrained")
     above, below = figure.subplots(2, 2, height_ratios=[3, 2])
     shown, difference = display_rms(study.pooled)[:, 0], 100.0 * study.difference[1, 0]
@@ -35,7 +38,8 @@ def model_picture(study: RmsStudy, band: FloatArray, path: Path) -> Path:
             axis.set_xticks(place, names)
     for axis, mode in zip(np.repeat(below, 3), range(6), strict=True):
         if np.isnan(difference[mode]):
-            axis.text(mode % 3, 0.0, "minor" if not study.major[0, mode] else "–", ha="center", va="bottom")
+            known = not np.isnan(study.pooled[:, 0, mode]).any()
+            axis.text(mode % 3, 0.0, "minor" if known else "no figures", ha="center", va="bottom")
     above[0].legend(frameon=False, fontsize=9)
     bars = "" if np.isnan(band).all() else f" (bars: {100.0 * CONFIDENCE:g} % band of the difference)"
     figure.suptitle(f"{study.title}, {study.seas[0].label}{bars}", fontsize=11)

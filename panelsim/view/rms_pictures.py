@@ -49,7 +49,7 @@ def rms_over_height(study: RmsStudy, wave_heading_deg: float, path: Path) -> Pat
             axis.plot(height, shown[level, :, mode], label=study.levels[level], **style)
             if level != study.reference:
                 twin.plot(height, 100.0 * study.difference[level, seas, mode], **style)
-        _finish_twin(twin, minor=not study.major[seas, mode].any())
+        _finish_twin(twin, _why_empty(study, seas, mode))
         axis.set_ylim(bottom=0.0)
         axis.tick_params(labelbottom=False)
     _label_below(axes[-1], "significant wave height [m]")
@@ -60,12 +60,15 @@ def rms_over_height(study: RmsStudy, wave_heading_deg: float, path: Path) -> Pat
     return save(figure, path)
 
 
-def rms_over_levels(study: RmsStudy, path: Path) -> Path:
+def rms_over_levels(study: RmsStudy, path: Path) -> Path | None:
     """Size of the difference from the reference over what is varied, of each motion, a line a sea.
 
     On logarithmic axes where the values are positive, so that an order of convergence is a slope. A line
-    ends where the motion is minor, or where there is no difference at all.
+    ends where the motion is minor, or where there is no difference at all. None where nothing can be
+    compared.
     """
+    if np.isnan(study.difference[np.arange(len(study.levels)) != study.reference]).all():
+        return None
     others = [i for i in np.argsort(study.values) if i != study.reference]
     values = study.values[others]
     size = 100.0 * np.abs(study.difference[others])
@@ -77,8 +80,7 @@ def rms_over_levels(study: RmsStudy, path: Path) -> Path:
             shown = np.where(size[:, sea, mode] > 0.0, size[:, sea, mode], np.nan)
             axis.plot(values, shown, label=met.label, **_line(sea))
         axis.axhline(100.0 * IDENTICAL, color=INK, linewidth=0.8, linestyle=":")
-        if not study.major[:, mode].any():
-            _say_minor(axis)
+        _say(axis, _why_empty(study, list(range(len(study.seas))), mode))
         if values.min() > 0.0:
             axis.set_xscale("log")
         axis.set_yscale("log")
@@ -151,7 +153,7 @@ def _shade(axis: Axes, height: FloatArray, rms: FloatArray, band: FloatArray) ->
         axis.fill_between(height, rms * (1.0 - band), rms * (1.0 + band), color=INK, alpha=0.12, linewidth=0)
 
 
-def _finish_twin(twin: Axes, *, minor: bool) -> None:
+def _finish_twin(twin: Axes, why_empty: str) -> None:
     """A line at no difference, room for a per cent either way, and a word where there is nothing to show.
 
     Where a low sea has differences of many times a per cent, those beyond one per cent are drawn by their
@@ -171,13 +173,21 @@ def _finish_twin(twin: Axes, *, minor: bool) -> None:
         twin.set_yticks([], minor=True)
         reach *= 1.5
     twin.set_ylim(-reach, reach)
-    if minor:
-        _say_minor(twin)
+    _say(twin, why_empty)
 
 
-def _say_minor(axis: Axes) -> None:
-    text = f"minor: below {100.0 * MINOR:g} % of the largest"
-    axis.text(0.5, 0.8, text, transform=axis.transAxes, ha="center", fontsize=8, color=INK)
+def _why_empty(study: RmsStudy, seas: list[int], mode: int) -> str:
+    """Why no difference of a mode is drawn in any of the seas; empty where some are."""
+    if study.unknown[seas].all():
+        return "no figures: the reference did not finish"
+    if study.major[seas, mode].any():
+        return ""
+    return f"minor: below {100.0 * MINOR:g} % of the largest"
+
+
+def _say(axis: Axes, text: str) -> None:
+    if text:
+        axis.text(0.5, 0.8, text, transform=axis.transAxes, ha="center", fontsize=8, color=INK)
 
 
 def _label_below(axes: Sequence[Axes], text: str) -> None:

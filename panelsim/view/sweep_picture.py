@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
@@ -17,6 +18,7 @@ HEADING, SPEED = "seaway.wave_heading_deg", "run.speed_knots"
 _STILL = 1e-6  # m or rad: below it is rounding
 _FINE = 1.0  # degrees: contours are drawn on so fine a circle, between headings along straight lines
 _OPEN = 1.5  # a gap so many times the usual one between headings is a part that was not swept
+_ROOM = 1.1  # above the highest point
 _HOLE = 0.3  # of the span of speeds: ships at rest are a circle, not a point
 _CROSS: dict[str, Any] = {"color": "#d62728", "markersize": 8, "markeredgewidth": 2.0}
 
@@ -24,8 +26,10 @@ _CROSS: dict[str, Any] = {"color": "#d62728", "markersize": 8, "markeredgewidth"
 def sweep_picture(found: xr.Dataset, path: Path) -> Path | None:
     """Draw a sweep into a PNG file: by heading and speed, or over one key; None where it is neither.
 
-    `found` as `sweep` gives it. Keys with a single value do not count.
+    `found` as `sweep` gives it. Keys with a single value do not count. None too where no run finished.
     """
+    if not found["realizations"].any():
+        return None
     keys = [key for key in found["realizations"].dims if found.sizes[key] > 1]
     flat = found.squeeze([key for key in found["realizations"].dims if found.sizes[key] == 1])
     if {*keys} == {HEADING, SPEED} and found.sizes[HEADING] > 2:
@@ -40,24 +44,36 @@ def _lines(found: xr.Dataset, key: str, path: Path) -> Path:
     numeric = np.issubdtype(found[key].dtype, np.number)
     if numeric:
         found = found.sortby(key)
-    places = found[key].values.astype(float) if numeric else np.arange(found.sizes[key])
+    places = found[key].values.astype(float) if numeric else np.arange(float(found.sizes[key]))
     short = _short(found)
     for dof, axis in zip(Dof, axes, strict=True):
         rms, half, unit = _rms(found, dof)
         plain(axis)
         axis.plot(places, rms, "o-" if numeric else "o", color=COLORS[dof + 1], markersize=4)
         axis.errorbar(places, rms, half, fmt="none", ecolor=COLORS[dof + 1], capsize=3, linewidth=1.0)
-        if short.any():
-            axis.plot(places[short], np.nan_to_num(rms)[short], "x", clip_on=False, zorder=5, **_CROSS)
-        axis.set_ylim(bottom=0.0)
+        _cross(axis, places, rms, short)
+        top = float(np.nanmax(rms + np.nan_to_num(half), initial=0.0))
+        axis.set_ylim(0.0, _ROOM * top if top > 0.0 else 1.0)
         axis.set_title(f"{DOF_NAMES[dof]}, RMS [{unit}]", fontsize=10)
         if not numeric:
             axis.set_xticks(places, [str(value) for value in found[key].values])
+            axis.set_xlim(-0.5, len(places) - 0.5)  # room for the words
     for axis in axes[3:]:
         axis.set_xlabel(_label(found, key), fontsize=9)
     bars = "" if np.isnan(found["rms_half_width"]).all() else "bars: 95 % confidence of the RMS"
     figure.suptitle(_title(found, bars, short), fontsize=11)
     return save(figure, path)
+
+
+def _cross(axis: Axes, places: FloatArray, rms: FloatArray, short: np.ndarray) -> None:
+    """Mark points where runs did not finish: on the RMS of the others, or at the top where there is none."""
+    none = short & np.isnan(rms)
+    some = short & ~none
+    if some.any():
+        axis.plot(places[some], rms[some], "x", clip_on=False, zorder=5, **_CROSS)
+    if none.any():
+        height = np.full(int(none.sum()), 0.97)
+        axis.plot(places[none], height, "x", transform=axis.get_xaxis_transform(), zorder=5, **_CROSS)
 
 
 def _polar(found: xr.Dataset, path: Path) -> Path:
@@ -75,14 +91,15 @@ def _polar(found: xr.Dataset, path: Path) -> Path:
         assert isinstance(axis, PolarAxes)
         rms, _, unit = _rms(found, dof)
         _fill(figure, axis, angle, speeds, rms[taken], f"RMS [{unit}]")
-        axis.plot(*(place.ravel() for place in places), ".", color=INK, markersize=1.5)
+        axis.plot(*(place.ravel() for place in places), ".", color=INK, markersize=2.5, clip_on=False)
         marked = short[taken]
         axis.plot(*(place[marked] for place in places), "x", clip_on=False, zorder=5, **_CROSS)
         _dress(axis, speeds)
         axis.set_title(DOF_NAMES[dof], fontsize=11, pad=10)
     sides = "starboard is drawn as the mirror image of port: ship and sea are symmetric" if mirrored else ""
-    how = "angle: where the waves come from, 180° head seas; radius: speed [knots]; dots: points of the sweep"
-    figure.suptitle(_title(found, "\n".join(filter(None, [how, sides])), short), fontsize=11)
+    how = "angle: where the waves come from, 180° head seas; radius: speed [knots]"
+    dots = "dots: points of the sweep; between them colours are interpolated along straight lines"
+    figure.suptitle(_title(found, "\n".join(filter(None, [how, dots, sides])), short), fontsize=11)
     return save(figure, path)
 
 
@@ -177,4 +194,6 @@ def _title(found: xr.Dataset, more: str, short: np.ndarray) -> str:
         f"{found.attrs['ship']}, {found.attrs['name']}: {most} realization{'s' if most > 1 else ''} a point"
     )
     marks = "✕: some runs capsized, diverged or failed; the RMS is that of the others" if short.any() else ""
+    if (found["realizations"].values == 0).any():
+        marks += ", or there is none"
     return "\n".join(filter(None, [what, more, marks]))

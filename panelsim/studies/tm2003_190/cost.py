@@ -175,14 +175,14 @@ def _body(table: Sequence[CostRow], longer: Sequence[CostRow], meshes: Sequence[
             f"{row.components}",
             f"{_published(row):g}",
             f"{row.median:.2g}",
-            f"{row.spread:.0%}",
+            row.told_spread,
             f"{_published(row) / row.median:.0f}{_range(row)}",
         ]
         for row, step in zip((*table, *longer), steps, strict=True)
         if not row.failure
     ]
     heads = ["model", "step [s]", "components", "the report", "here", "spread", "times less (rounds)"]
-    by_mesh = [[row.label, f"{row.panels}", f"{row.median:.2g}", f"{row.spread:.0%}"] for row in meshes]
+    by_mesh = [[row.label, f"{row.panels}", f"{row.median:.2g}", row.told_spread] for row in meshes]
     compilation = max((row.compilation for row in (*table, *meshes) if not row.failure), default=0.0)
     return (
         "CPU seconds over simulated seconds:\n\n"
