@@ -322,8 +322,10 @@ def test_converge_leaves_a_page_that_is_the_same_when_made_again(
         "ab3, 0.4 s",
         "exponential, 0.2 s (reference)",
     }  # type: ignore
+    (folder / "difference-mine.png").write_text("the user's")
     kept = {file.name: file.read_bytes() for file in folder.iterdir() if file.is_file()}
     assert panelsim(*command, "--workers", 1)[0] == 2  # there is a page already
+    (folder / "difference-rk4.png").write_text("of an older page")
     lost, *others = sorted((folder / "runs").iterdir())
     times = {file: file.stat().st_mtime_ns for file in others}
     lost.unlink()
