@@ -62,7 +62,8 @@ def sweep(
     _ = case.ship, case.seaway, case.supplementary, case.points  # whatever is wrong with them comes first
     warn(case.warnings())
     folder.begin(case, anew=force)
-    out.print(f"{' x '.join(map(str, plan.shape))} = {int(np.prod(plan.shape))} runs", soft_wrap=True)
+    count = int(np.prod(plan.shape))
+    out.print(f"{' x '.join(map(str, plan.shape))} = {count} run{'s' * (count > 1)}", soft_wrap=True)
     try:
         with progress_bars() as track:
             found = run_sweep(

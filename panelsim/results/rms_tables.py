@@ -15,18 +15,22 @@ SEA_COLUMNS = ("sea", "wave_heading [deg]", "significant_wave_height [m]", "peak
 
 
 def rms_csv(study: RmsStudy) -> str:
-    """CSV text with a row a level, sea and realization: RMS in m and degrees, empty where a run failed."""
+    """CSV text with a row a level, sea and realization: RMS in m and degrees, empty where a run failed.
+
+    What is varied has a column where it has a unit, as a model has not.
+    """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     heads = [f"{name}_rms [{display_unit(name)[0]}]" for name in DOF_NAMES]
-    writer.writerow(["level", study.varied, *SEA_COLUMNS, "realization", *heads])
+    varied = [study.varied] if study.varied.endswith("]") else []
+    writer.writerow(["level", *varied, *SEA_COLUMNS, "realization", *heads])
     shown = display_rms(study.rms)
     for level, sea, realization in np.ndindex(shown.shape[:3]):
         met = study.seas[sea]
         of_sea = (met.label, met.wave_heading_deg, met.significant_wave_height, met.peak_period)
         cells = ("" if np.isnan(value) else repr(float(value)) for value in shown[level, sea, realization])
-        value = repr(float(study.values[level]))
-        writer.writerow([study.levels[level], value, *of_sea, realization + 1, *cells])
+        value = [repr(float(study.values[level]))] if varied else []
+        writer.writerow([study.levels[level], *value, *of_sea, realization + 1, *cells])
     return text.getvalue()
 
 
