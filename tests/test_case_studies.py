@@ -103,9 +103,12 @@ def test_every_run_of_a_study_meets_the_same_waves() -> None:
 
 
 def test_panels_are_about_the_own_ones_with_a_finer_reference() -> None:
-    study = mesh_convergence(case_of(), rules=["vertex+centre", "panel"])
-    assert study.values == (160.0, 80.0, 40.0, 20.0)
-    assert study.reference == 10.0
+    fine = case_of(**{"ship.panel_area": 16.0})
+    study = mesh_convergence(fine, rules=["vertex+centre", "panel"])
+    assert study.values == (64.0, 32.0, 16.0, 8.0)
+    assert study.reference == 4.0
+    # Of the default areas 80 and 160 m² are too large for the hull.
+    assert mesh_convergence(case_of()).values == (40.0, 20.0)
     assert study.case_of("panel", 0, 0).file.run.pressure_rule == "panel"
     assert study.case_of("panel", 4, 0).file.run.pressure_rule == "vertex+centre"
 
@@ -291,7 +294,7 @@ def test_what_a_case_costs_by_default_and_by_wish() -> None:
         52,
         52,
     ]
-    assert [case.file.ship.panel_area for case in study.varied["panels"].values()][::2] == [80.0, 40.0, 20.0]
+    assert [case.file.ship.panel_area for case in study.varied["panels"].values()][::2] == [40.0, 20.0]
     assert [case.file.run.model for case in study.varied["case"].values()] == ["linear", "nonlinear"]
     wished = case_cost(case_of(**{"run.duration": 5000.0}), [19], [60.0])
     assert [case.seaway.components.count for case in wished.varied["components"].values()] == [19, 19]
@@ -350,9 +353,9 @@ def test_converge_mesh_and_compare_leave_their_pages(
     panelsim: Called, tmp_path: Path, recorded: list[dict[str, object]]
 ) -> None:
     (tmp_path / "short.toml").write_text(CASE)
-    assert panelsim("converge", "mesh", "short.toml", "--panel-areas", "160,80", "--workers", 1)[0] == 0
+    assert panelsim("converge", "mesh", "short.toml", "--panel-areas", "60,40", "--workers", 1)[0] == 0
     page = (tmp_path / "runs/short-mesh/report.md").read_text()
-    assert "160 m2" in page and "| reference | 40 m2 (reference) |" in page
+    assert "60 m2" in page and "| reference | 20 m2 (reference) |" in page
     code, out, _ = panelsim("compare", "linear-nonlinear", "short.toml", "--seeds", 2, "--workers", 1)
     assert code == 0 and "Nonlinear less linear" in out
     page = (tmp_path / "runs/short-linear-nonlinear/report.md").read_text()
@@ -363,7 +366,7 @@ def test_converge_mesh_and_compare_leave_their_pages(
 
 def test_cost_leaves_a_page_that_is_the_same_when_made_again(panelsim: Called, tmp_path: Path) -> None:
     (tmp_path / "short.toml").write_text(CASE)
-    command = ["cost", "short.toml", "--components", "13,26", "--panel-areas", "80", "--rounds", 2]
+    command = ["cost", "short.toml", "--components", "13,26", "--panel-areas", "60", "--rounds", 2]
     code, out, _ = panelsim(*command)
     assert code == 0 and "CPU s a simulated s" in out
     folder = tmp_path / "runs" / "short-cost"
@@ -376,12 +379,13 @@ def test_cost_leaves_a_page_that_is_the_same_when_made_again(panelsim: Called, t
 
 def test_cost_of_a_case_that_cannot_be_timed_is_told_and_no_success(panelsim: Called, tmp_path: Path) -> None:
     (tmp_path / "short.toml").write_text(CASE)
-    command = ["cost", "short.toml", "--components", "13", "--panel-areas", "80", "--rounds", 1]
+    command = ["cost", "short.toml", "--components", "13", "--panel-areas", "60", "--rounds", 1]
     code, out, _ = panelsim(*command)
     assert code == 0 and "spread –" in out and "\n\n" not in out
     page = (tmp_path / "runs/short-cost/report.md").read_text()
     assert "One round, each run alone" in page and " 0 %" not in page
     code, out, err = panelsim(*command, "--set", "run.capsize_angle_deg=0.01", "--force")
+    assert all(line.startswith("warning: ") for line in err.splitlines())
     assert code == 3 and "capsized" in err and "report.md;" in out and "\n\n" not in out
     left = {file.name for file in (tmp_path / "runs/short-cost").iterdir()}
     assert left == {"report.md", "runs"}
@@ -409,6 +413,11 @@ def test_cost_of_a_case_that_cannot_be_timed_is_told_and_no_success(panelsim: Ca
         (["converge", "time-step", "--workers", "0"], "workers"),
         (["compare", "linear-nonlinear", "--scheduler", "nowhere"], "tcp://"),
         (["converge", "mesh", "--panel-areas", "-5"], "not positive"),
+        (["converge", "mesh", "--panel-areas", "1e9"], "panel area does not suit"),
+        (["converge", "mesh", "--panel-areas", "50,1e-6"], "panel area does not suit"),
+        (["converge", "mesh", "--panel-areas", "5e3,4e3"], "panel area does not suit"),
+        (["cost", "--panel-areas", "50,5e3"], "panel area does not suit"),
+        (["sweep", "--over", "ship.hull=halifax,titanic"], "titanic"),
         (["converge", "mesh", "--rules", "corner"], "vertex+centre"),
         (["converge", "mesh", "--set", "run.model=linear", "--rules", "panel"], "no pressure rule"),
         (["compare", "linear-nonlinear", "--set", "roll_damping.method=terms", "--set",
@@ -417,15 +426,19 @@ def test_cost_of_a_case_that_cannot_be_timed_is_told_and_no_success(panelsim: Ca
         (["cost", "--components", "1.5"], "whole numbers"),
         (["cost", "--components", ""], "no list of whole numbers"),
         (["cost", "--panel-areas", "0"], "not positive"),
-        (["cost", "--rounds", "0"], "--rounds"),
+        (["cost", "--rounds", "0"], '"0"\n  allowed: greater than or equal to 1'),
+        (["converge"], "Missing command.\n  allowed: mesh, time-step"),
+        (["converge", "foo"], "No such command 'foo'.\n  allowed: mesh, time-step"),
+        (["compare"], "Missing command.\n  allowed: linear-nonlinear"),
     ],
 )  # fmt: skip
 def test_bad_input_is_refused_in_words_and_leaves_nothing(
     panelsim: Called, tmp_path: Path, arguments: list[str], told: str
 ) -> None:
     (tmp_path / "short.toml").write_text(CASE)
-    commands = 1 if arguments[0] == "cost" else 2
-    code, _, err = panelsim(*arguments[:commands], "short.toml", *arguments[commands:])
+    commands = 1 if arguments[0] in ("cost", "sweep") else 2
+    case = ["short.toml"] if len(arguments) > 2 else []
+    code, _, err = panelsim(*arguments[:commands], *case, *arguments[commands:])
     assert code == 2
     assert err.startswith("error: ") and told in err
     assert [file.name for file in tmp_path.iterdir()] == ["short.toml"]
@@ -479,7 +492,7 @@ def test_the_order_is_over_the_step_or_the_side_of_a_panel() -> None:
         labels = tuple(map(str, values))
         return RmsStudy("t", "v", labels, size, len(values) - 1, (StudySea("s", 0.0),), rms)
 
-    panels = mesh_convergence(case_of())
+    panels = mesh_convergence(case_of(), [60.0, 40.0])
     found = panels.order(made_up([160.0, 80.0, 40.0, 20.0, 10.0], 1e-5, 1.0), "vertex+centre")
     assert found.order == pytest.approx(2.0, abs=0.01)  # 1 − ε h^p is not quite 1
     steps = time_step_convergence(case_of())

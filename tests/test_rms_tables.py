@@ -2,6 +2,7 @@
 
 import csv
 import io
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -83,6 +84,9 @@ def test_csv_gives_back_every_run_in_metres_and_degrees_with_units_in_the_header
     assert float(last["pitch_rms [deg]"]) == pytest.approx(np.rad2deg(study.rms[1, 1, 0, 4]), rel=1e-15)
     assert float(first["wave_heading [deg]"]) == 30.0
     assert failed["surge_rms [m]"] == ""
+    models = csv.DictReader(io.StringIO(rms_csv(replace(study, varied="model"))))
+    assert models.fieldnames is not None and "model" not in models.fieldnames
+    assert [row["heave_rms [m]"] for row in models] == [row["heave_rms [m]"] for row in rows]
 
 
 def test_markdown_has_the_band_of_several_realizations_only() -> None:
@@ -165,6 +169,7 @@ def test_the_order_of_differences_that_follow_a_power_is_found(order: float) -> 
     ("factors", "floor", "reason"),
     [
         ([1.02, 1.01, 1.0], 0.0, "2 levels besides the reference"),
+        ([1.02, 1.0], 0.0, "1 level besides the reference"),
         ([1.03, 1.02, np.nan, 1.0], 0.0, "2 levels besides the reference"),
         ([1.0 + 3e-12, 1.0 + 2e-12, 1.0 + 1e-12, 1.0], 1e-9, "round-off"),
         ([1.001, 1.03, 1.0009, 1.02, 1.0], 0.0, "no power"),

@@ -255,3 +255,14 @@ def test_rms_of_runs_reads_levels_seas_and_realizations_in_their_places(
     np.testing.assert_allclose(study.rms[0, 2, 1], 22.0 * one, rtol=1e-12)
     assert np.isnan(study.rms[1, 2, 0]).all() and np.isfinite(study.rms).sum() == 11 * 6
     assert study.failures == ("0.1 s, sea 2, realization 1: no luck",)
+
+
+def test_a_run_of_a_study_is_no_history_and_says_so(
+    make_history: Callable[..., History], tmp_path: Path
+) -> None:
+    path = tmp_path / "run.nc"
+    path.write_bytes(kept_bytes(make_history(), "identity"))
+    with pytest.raises(
+        PanelsimError, match=r"motions and the wave alone are kept(.|\n)*run\.nc(.|\n)*panelsim run"
+    ):
+        History.load(path)

@@ -72,6 +72,7 @@ def test_what_the_dataset_says(base: Case, found: xr.Dataset) -> None:
     assert found["rms"].dims == (HEADING, SPEED, "dof")
     assert found[HEADING].attrs["units"] == "deg" and found[SPEED].attrs["units"] == "knots"
     assert all(found[name].attrs["units"] for name in found.data_vars)
+    assert found["dof_unit"].values.tolist() == ["m"] * 3 + ["rad"] * 3
     assert (found["realizations"] == 3).all() and not found["failed"].any()
     assert json.loads(found.attrs["seeds"]) == [1001, 1002, 1003]
     assert json.loads(found.attrs["case"]) == json.loads(json.dumps(base.resolved()))

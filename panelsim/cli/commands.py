@@ -66,7 +66,7 @@ def call() -> int:
     except typer.BadParameter as error:
         return _refuse(_bad_value(error))
     except typer.TyperException as error:
-        return _refuse(error.format_message())
+        return _refuse(_bad_usage(error))
     except OSError as error:
         return _refuse(f"{error.strerror or error}.\n  got: {error.filename or 'no file name'}")
     except MemoryError:
@@ -87,10 +87,23 @@ def _bad_value(error: typer.BadParameter) -> str:
     message, cause = error.format_message(), error.__cause__
     faults = cause.errors() if isinstance(cause, ValidationError) else []
     allowed = _NUMBERS.get(faults[0]["type"]) if len(faults) == 1 else None
-    if allowed is None:
-        return message
     what = message.partition(": ")[0]  # Invalid value for '--option'
-    return str(PanelsimError(what, got=f'"{faults[0]["input"]}"', allowed=allowed))
+    if allowed is None and len(faults) == 1 and "or equal to" in faults[0]["msg"]:
+        allowed = faults[0]["msg"].replace("Input should be ", "")
+    return (
+        message
+        if allowed is None
+        else str(PanelsimError(what, got=f'"{faults[0]["input"]}"', allowed=allowed))
+    )
+
+
+def _bad_usage(error: typer.TyperException) -> str:
+    """The parser's words; for a command that is missing or unknown those that there are, too."""
+    message = error.format_message()
+    known = getattr(getattr(getattr(error, "ctx", None), "command", None), "commands", None)
+    if known is None or "command" not in message:
+        return message
+    return str(PanelsimError(message, allowed=", ".join(sorted(known))))
 
 
 def _version(wanted: bool) -> None:

@@ -60,7 +60,8 @@ def cost(
             say(f"{row.model}: {row.median:.2e} CPU s a simulated s, spread {row.told_spread}")
     if powers := growth_in_words(rows):
         say(powers)
-    warn(f"{row.label}: {row.failure}" for of_what in rows.values() for row in of_what if row.failure)
+    failed = [row for of_what in rows.values() for row in of_what if row.failure is not None]
+    warn(" ".join(f"{row.label}: {row.failure}".split()) for row in failed)
     tell_files(folder, files)
     if any(row.failure is not None for row in rows["case"]):
         raise typer.Exit(EXIT_ENDED_EARLY)

@@ -50,10 +50,12 @@ def _warn_of_wide_bands(plan: SweepPlan, found: xr.Dataset, dims: list[str]) -> 
         return
     *place, dof = np.unravel_index(np.nanargmax(share), share.shape)
     where = ", ".join(f"{axis.key} = {axis.values[i]}" for axis, i in zip(plan.axes, place, strict=True))
+    widest = float(np.nanmax(share))
+    known = "not known" if widest > 1.0 else f"known to ± {100 * widest:.0f} % only"
     warn(
         [
-            f"The RMS is known to ± {100 * np.nanmax(share):.0f} % only ({DOF_NAMES[dof]} at {where}): take"
-            " more seeds or a longer run.duration; docs/studies.md says how many."
+            f"The RMS is {known} ({DOF_NAMES[dof]} at {where}): take more seeds or a longer run.duration;"
+            " docs/studies.md says how many."
         ]
     )
 

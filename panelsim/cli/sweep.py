@@ -63,7 +63,8 @@ def sweep(
     warn(case.warnings())
     require_cluster(scheduler)
     folder.begin(case, anew=force)
-    out.print(f"{' x '.join(map(str, plan.shape))} = {int(np.prod(plan.shape))} runs", soft_wrap=True)
+    count = int(np.prod(plan.shape))
+    out.print(f"{' x '.join(map(str, plan.shape))} = {count} run{'s' * (count > 1)}", soft_wrap=True)
     try:
         with progress_bars() as track:
             found = run_sweep(

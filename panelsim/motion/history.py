@@ -372,6 +372,13 @@ def _require_history(tree: xr.DataTree, path: Path) -> None:
             allowed=f"format {HISTORY_FORMAT}",
             remedy="read it with the panelsim that wrote it, or run the case again",
         )
+    if "identity" in tree.attrs:
+        raise PanelsimError(
+            "This is a run of a study, of which the motions and the wave alone are kept",
+            got=path,
+            allowed="a history.nc of panelsim",
+            remedy="make the run by itself, with `panelsim run`",
+        )
     needed = [f"/{name}" for name in (*SIGNAL_UNITS, "wave_elevation")] + ["/mesh/vertices", "/mesh/panels"]
     needed += [f"/loading/{name}" for name in LOADING_UNITS] + [f"/seaway/{name}" for name in COMPONENT_UNITS]
     missing = sorted(set(needed) - {name for name, _ in _arrays(tree)})

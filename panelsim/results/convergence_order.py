@@ -44,7 +44,8 @@ def convergence_order(
     error = _sizes_of_difference(study)
     known = others & np.isfinite(error)
     if known.sum() < FEWEST_LEVELS:
-        return _none(f"{known.sum()} levels besides the reference, and it takes {FEWEST_LEVELS}")
+        levels = "1 level" if known.sum() == 1 else f"{known.sum()} levels"
+        return _none(f"{levels} besides the reference, and it takes {FEWEST_LEVELS}")
     if (error <= floor)[known].any():
         least = 100.0 * error[known].min()
         return _none(f"a difference of {least:.2g} % is round-off, or below what the samples tell of an RMS")

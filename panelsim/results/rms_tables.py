@@ -19,7 +19,7 @@ def rms_csv(study: RmsStudy) -> str:
     """CSV text with a row a level, sea and realization: RMS in m and degrees, empty where a run failed.
 
     Where there are several realizations a row "all" follows them: the RMS of all together, with the half
-    width of its confidence band.
+    width of its confidence band. What is varied has a column where it has a unit, as a model has not.
     """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -29,13 +29,15 @@ def rms_csv(study: RmsStudy) -> str:
         for of in ("", "_band")
         for name, unit in zip(DOF_NAMES, units, strict=True)
     ]
-    writer.writerow(["level", study.varied, *SEA_COLUMNS, "realization", *heads])
+    varied = [study.varied] if study.varied.endswith("]") else []
+    writer.writerow(["level", *varied, *SEA_COLUMNS, "realization", *heads])
     shown, pooled = display_rms(study.rms), display_rms(study.pooled)
     band = study.band * pooled
     for level, sea in np.ndindex(pooled.shape[:2]):
         met = study.seas[sea]
         of_sea = (met.label, met.wave_heading_deg, met.significant_wave_height, met.peak_period)
-        of_row = (study.levels[level], repr(float(study.values[level])), *of_sea)
+        value = [repr(float(study.values[level]))] if varied else []
+        of_row = (study.levels[level], *value, *of_sea)
         for realization, values in enumerate(shown[level, sea], start=1):
             writer.writerow([*of_row, realization, *_csv_cells(values), *[""] * 6])
         if shown.shape[2] > 1:

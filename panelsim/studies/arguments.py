@@ -2,6 +2,7 @@
 
 import operator
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from numbers import Real
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from panelsim.case import Case
 from panelsim.errors import PanelsimError, require_kind
+from panelsim.ship.bundled import default_panel_area
 
 MOST_RUNS = 2000  # of a study; more are a slip, or a sweep that its caller must ask for
 
@@ -59,6 +61,25 @@ def require_few_runs(runs: int) -> None:
             allowed=f"at most {MOST_RUNS}",
             remedy="take fewer seeds, or fewer levels",
         )
+
+
+def require_ships(cases: Iterable[Case]) -> None:
+    """Build each distinct ship once: PanelsimError for one that cannot be, before the first run."""
+    for case in {case.file.ship.model_dump_json(): case for case in cases}.values():
+        _ = case.ship
+
+
+def areas_that_suit(case: Case, factors: Iterable[float]) -> list[float]:
+    """These multiples of the panel area [m²] of a ship, less those that her hull cannot be made of."""
+    form = case.ship.form
+    assert form is not None
+    own = case.file.ship.panel_area or default_panel_area(form)
+    found = []
+    for area in [factor * own for factor in factors]:
+        with suppress(PanelsimError):
+            require_ships([case.changed({"ship.panel_area": area})])
+            found.append(area)
+    return found
 
 
 def _short(value: object) -> str:

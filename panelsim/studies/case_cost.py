@@ -8,8 +8,7 @@ from panelsim.case import Case
 from panelsim.case.seaway_schema import MOST_FREQUENCIES
 from panelsim.errors import PanelsimError
 from panelsim.seaway.random import RandomSeaway
-from panelsim.ship.bundled import default_panel_area
-from panelsim.studies.arguments import real_numbers, require_case
+from panelsim.studies.arguments import areas_that_suit, real_numbers, require_case, require_ships
 from panelsim.studies.convergence import SHOWN, falling, require_panels
 from panelsim.studies.linear_nonlinear import models_of
 
@@ -69,7 +68,7 @@ def case_cost(
     """
     require_case(case)
     found = CaseCost(case, tuple(_frequencies(case, frequencies)), tuple(_areas(case, panel_areas)))
-    _ = found.varied  # what no case may have is refused before anything is run
+    require_ships(found.cases)  # what no case may have is refused before anything is run
     return found
 
 
@@ -128,5 +127,4 @@ def _areas(case: Case, given: Sequence[float] | None) -> Sequence[float]:
         return falling("panel areas", given, "m2")
     if case.ship.form is None:
         return []
-    own = case.file.ship.panel_area or default_panel_area(case.ship.form)
-    return [factor * own for factor in sorted(AREA_FACTORS, reverse=True)]
+    return areas_that_suit(case, sorted(AREA_FACTORS, reverse=True))

@@ -15,8 +15,14 @@ from panelsim.motion.requirements import LONGEST_STEP
 from panelsim.results.convergence_order import ConvergenceOrder, convergence_order
 from panelsim.results.rms_study import RmsStudy
 from panelsim.results.verdicts import IDENTICAL, worst_difference
-from panelsim.ship.bundled import default_panel_area
-from panelsim.studies.arguments import listed, real_numbers, require_case, require_few_runs
+from panelsim.studies.arguments import (
+    areas_that_suit,
+    listed,
+    real_numbers,
+    require_case,
+    require_few_runs,
+    require_ships,
+)
 from panelsim.studies.rms_of_runs import rms_of_runs
 from panelsim.studies.run_store import RunStore
 from panelsim.studies.study_sea import realization, require_seeds, study_sea
@@ -161,6 +167,8 @@ def mesh_convergence(
 ) -> Convergence:
     """Panel areas [m²], by default half, once, twice and four times those of the ship; pressure rules.
 
+    Of the default areas those are left out that the hull cannot be made of.
+
     A linear case is studied too: its restoring and Froude-Krylov forces are sums over panels. Raises
     PanelsimError for areas and rules that no ship or run may have, for a ship of a mesh file, which has its
     own panels, for pressure rules of a linear case, and for a sea without waves or seeds.
@@ -181,25 +189,20 @@ def mesh_convergence(
         unit="m2",
         case=case,
         value_key="ship.panel_area",
-        values=falling("panel areas", _areas_about_own(case) if panel_areas is None else panel_areas, "m2"),
+        values=falling(
+            "panel areas", areas_that_suit(case, AREA_FACTORS) if panel_areas is None else panel_areas, "m2"
+        ),
         scheme_key="run.pressure_rule",
         schemes=_different("pressure rules", rules, run.pressure_rule, RULES),
         seeds=seeds,
     )
-    _ = study.cases
+    require_ships(study.cases)
     return study
 
 
 def _words_of(key: str) -> str:
     """The last part of a key of the case, as words: run.pressure_rule, pressure rule."""
     return key.rpartition(".")[2].replace("_", " ")
-
-
-def _areas_about_own(case: Case) -> list[float]:
-    form = case.ship.form
-    assert form is not None
-    own = case.file.ship.panel_area or default_panel_area(form)
-    return [factor * own for factor in AREA_FACTORS]
 
 
 def require_panels(case: Case) -> None:

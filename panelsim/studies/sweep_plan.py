@@ -8,7 +8,7 @@ import numpy as np
 
 from panelsim.case import Case
 from panelsim.errors import PanelsimError
-from panelsim.studies.arguments import MOST_RUNS, whole_number
+from panelsim.studies.arguments import MOST_RUNS, require_ships, whole_number
 from panelsim.studies.axes import Axis, Value, require_axes
 
 SEEDED = ("random", "dataset")
@@ -66,7 +66,7 @@ def plan_sweep(case: Case, axes: Sequence[Axis], seeds: int = 1, *, most_runs: i
         )
     if seeds > 1:
         _require_seeds(plan)
-    _ = plan.cases  # whatever is wrong with a value comes before anything long
+    require_ships(plan.cases.values())  # whatever is wrong with a value comes before anything long
     return plan
 
 

@@ -116,10 +116,11 @@ def _dataset(
     for name, number in counts.items():
         told = {"units": "1", "long_name": f"realizations that {name}"}
         variables["realizations" if name == "finished" else name] = keys, number, told
+    units = "dof", ["m"] * 3 + ["rad"] * 3, {"long_name": "unit of mean, rms, rms_half_width, max and min"}
     coordinates = {axis.key: (axis.key, np.array(axis.values), {"units": axis.unit}) for axis in plan.axes}
     return xr.Dataset(
         variables,
-        coords=coordinates | {"dof": list(DOF_NAMES)},
+        coords=coordinates | {"dof": list(DOF_NAMES), "dof_unit": units},
         attrs={
             "case": json.dumps(plan.base.resolved(), ensure_ascii=False, sort_keys=True),
             "name": plan.base.name,
