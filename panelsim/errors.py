@@ -1,6 +1,8 @@
 """The one exception of panelsim: what is wrong, what was got, what is allowed, what to do."""
 
+from functools import partial
 from types import UnionType
+from typing import Any
 
 
 class PanelsimError(Exception):
@@ -30,6 +32,11 @@ class PanelsimError(Exception):
             if part is not None:
                 lines.append(f"  {label}: {part}")
         super().__init__("\n".join(lines))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Its parts in words, so that one from another process says the same."""
+        got, allowed = (None if part is None else str(part) for part in (self.got, self.allowed))
+        return partial(PanelsimError, got=got, allowed=allowed, remedy=self.remedy), (self.what,)
 
 
 def require_kind(name: str, value: object, kind: type | UnionType, allowed: str) -> None:

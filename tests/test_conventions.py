@@ -1,6 +1,8 @@
 """Rotations and conjugate moments: signs, order, and virtual work."""
 
+import pickle
 from importlib.metadata import version
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -64,3 +66,11 @@ def test_error_carries_all_four_parts() -> None:
 def test_the_package_and_its_metadata_state_one_version() -> None:
     """A history takes its version from the metadata, `panelsim --version` from the package."""
     assert version("panelsim") == panelsim.__version__
+
+
+def test_an_error_from_another_process_says_the_same() -> None:
+    error = PanelsimError("The step is too long", got=Path("a/b"), allowed="0.2 s", remedy="shorten it")
+    again = pickle.loads(pickle.dumps(error))
+    assert isinstance(again, PanelsimError)
+    assert str(again) == str(error)
+    assert (again.what, again.remedy) == (error.what, error.remedy)

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from panelsim.studies.tm2003_190.reproduce import reproduction
+
 # What the report says, in short, and whether it holds here with heights of 3 and 7 m; why is on the page.
 VERDICTS = {
     "exponential: 0.1 and 0.2 s": True,
@@ -53,3 +55,8 @@ def test_the_reduced_set_gives_the_verdicts_that_it_gave(
     assert took < 600.0
     code, _, err = panelsim("reproduce", "tm2003-190", "--quick", "--from-runs", "--force")
     assert code == 0, err
+
+    # Made by as many processes as there are cores; one makes the same.
+    reproduction(quick=True, runs=tmp_path / "runs/tm2003-190-quick").make_page(tmp_path / "again", workers=1)
+    for path in (folder / "README.md", *folder.glob("tables/*"), *folder.glob("pictures/*")):
+        assert (tmp_path / "again" / path.relative_to(folder)).read_bytes() == path.read_bytes(), path

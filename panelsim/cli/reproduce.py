@@ -60,7 +60,7 @@ def reproduce(
             tell = _teller(track)
             if not from_runs:
                 study.make_runs(workers=workers, scheduler=scheduler, progress=tell)
-            sections = study.make_page(folder, tell)
+            sections = study.make_page(folder, tell, workers=1 if scheduler is not None else workers)
     except BaseException:
         remove_if_empty(folder)
         raise

@@ -28,6 +28,7 @@ from panelsim.motion.history import History
 
 panelsim_version = cache(lambda: version("panelsim"))  # to look it up takes as long as to read a run
 NEEDED = ("outcome", "outcome_detail", "ramp", "time_step", "cpu_seconds")
+_OF_RUN = ("identity", "panelsim_version")
 KEPT = ("displacement", "wave_elevation")
 RUN_FILE = re.compile(r"[0-9a-f]{20}\.(nc|failed\.json)")  # how the files of a store are called
 _identities: WeakKeyDictionary[Case, str] = WeakKeyDictionary()
@@ -135,7 +136,7 @@ class RunStore:
         """
         key = run_key(case)
         if key not in self._rms:
-            run = self.load(case)
+            run = self._read(case, NEEDED)
             self._rms[key] = run.rms, run.early_end
         return self._rms[key]
 
@@ -144,6 +145,10 @@ class RunStore:
 
         Raises PanelsimError where there is none, where it is damaged, or of another case or version.
         """
+        return self._read(case)
+
+    def _read(self, case: Case, attributes: Sequence[str] | None = None) -> StoredRun:
+        """The run with some of its attributes, or all: to read them takes as long as half of the motions."""
         path = self.path(case)
         if not path.is_file():
             raise PanelsimError(
@@ -151,7 +156,8 @@ class RunStore:
             )
         try:
             with h5py.File(path) as file:
-                attrs = {name: _plain(value) for name, value in file.attrs.items()}
+                names = list(file.attrs) if attributes is None else [*attributes, *_OF_RUN]
+                attrs = {name: _plain(file.attrs[name]) for name in names if name in file.attrs}
                 time, displacement, elevation = (file[name][:] for name in ("time", *KEPT))
         except (OSError, KeyError, RuntimeError) as error:
             raise PanelsimError("A stored run is damaged", got=f"{path} ({error})", remedy=_AGAIN) from error

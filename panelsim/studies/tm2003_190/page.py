@@ -78,7 +78,8 @@ def _making(making: Making) -> str:
     return (
         f"`panelsim reproduce tm2003-190{' --quick' if making.extent == 'quick' else ''}`, panelsim"
         f" {making.version}, {making.runs} runs. {making.seeds} What is written here comes from stored runs"
-        " alone; `--from-runs` makes the page again.\n\n"
+        " alone; `--from-runs` makes the page again. Recordings, for"
+        " `panelsim view`, lie beside a page that was made here; they are not kept with the sources.\n\n"
         f"Time: {_time(making.cpu_seconds)} of CPU in the runs, {_time(making.wall_seconds)} by the clock to"
         f" make them and to measure, in all sessions, without this page; on {making.machine}.\n"
     )

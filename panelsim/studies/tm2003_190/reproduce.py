@@ -8,9 +8,12 @@ from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from dask.system import CPU_COUNT
+
 from panelsim.case import Case
 from panelsim.errors import PanelsimError
 from panelsim.files import read_json_table, replacing, write_whole
+from panelsim.studies.cluster import local_client
 from panelsim.studies.computing import compute_runs, require_cluster, require_processes
 from panelsim.studies.run_store import RunStore, StoredRun, run_key
 from panelsim.studies.tm2003_190.common import FULL, QUICK, Scope, base_case
@@ -41,8 +44,8 @@ class CountingStore(RunStore):
         super().__init__(folder)
         self.cpu_seconds: dict[str, float] = {}
 
-    def load(self, case: Case) -> StoredRun:
-        run = super().load(case)
+    def _read(self, case: Case, attributes: Sequence[str] | None = None) -> StoredRun:
+        run = super()._read(case, attributes)
         self.cpu_seconds[run_key(case)] = float(run.attrs["cpu_seconds"])
         return run
 
@@ -122,26 +125,27 @@ class Reproduction:
                     found[key] = (case, study.key)
         return [case for case, _ in found.values()], [name for _, name in found.values()]
 
-    def make_page(self, folder: Path, progress: Progress | None = None) -> tuple[Section, ...]:
+    def make_page(
+        self, folder: Path, progress: Progress | None = None, *, workers: int | None = 1
+    ) -> tuple[Section, ...]:
         """Write README.md, pictures, tables and recordings into the folder, from stored runs alone.
 
-        What an older page had of these is replaced, at the end and in one go.
+        What an older page had of these is replaced, at the end and in one go. Sections are made by so many
+        `workers`, as many as there are cores if None.
         """
         note = open_runs_folder(self.runs, NAME, self.extent)
         folder.parent.mkdir(parents=True, exist_ok=True)
         with TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as beside:
-            sections, store = [], CountingStore(self.runs)
-            for done, study in enumerate(self.studies):
-                if progress is not None:
-                    progress(f"page: {study.key}", done, len(self.studies))
-                sections.append(_write_section(study, store, Path(beside)))
+            made = self._written(Path(beside), _processes(workers, len(self.studies)), progress)
+            sections = [section for section, _ in made]
+            spent = {key: seconds for _, of_runs in made for key, seconds in of_runs.items()}
             making = Making(
                 version("panelsim"),
                 note.machine,
                 self.extent,
                 _seeds(self.scope),
                 len({run_key(case) for study in self.studies for case in study.cases}),
-                sum(store.cpu_seconds.values()),
+                sum(spent.values()),
                 note.wall_seconds,
             )
             write_whole(Path(beside) / "README.md", page(sections, making).encode())
@@ -149,6 +153,33 @@ class Reproduction:
         if progress is not None:
             progress("page", 1, 1)
         return tuple(sections)
+
+    def _written(
+        self, folder: Path, processes: int, progress: Progress | None
+    ) -> list[tuple[Section, dict[str, float]]]:
+        """The sections, written into the folder, and the CPU seconds of the runs that each read, by key."""
+
+        def told(done: int) -> None:
+            if progress is not None and done < len(self.studies):
+                progress(f"page: {self.studies[done].key}", done, len(self.studies))
+
+        if processes == 1:
+            found = []
+            for done, study in enumerate(self.studies):
+                told(done)
+                found.append(_write_section(study, self.runs, folder))
+            return found
+        with local_client(processes) as client:
+            # Those that read most come first, or the last one would keep the others waiting.
+            futures = [
+                client.submit(_write_section, study, self.runs, folder, pure=False, priority=len(study.cases))
+                for study in self.studies
+            ]
+            found = []
+            for done, future in enumerate(futures):
+                told(done)
+                found.append(future.result())
+            return found
 
 
 def reproduction(*, quick: bool, runs: Path) -> Reproduction:
@@ -168,8 +199,17 @@ def reproduction(*, quick: bool, runs: Path) -> Reproduction:
     return Reproduction(studies, scope, "quick" if quick else "full", runs)
 
 
-def _write_section(study: Study, store: RunStore, folder: Path) -> Section:
-    """The section of a study, its pictures, tables and recording written into the folder."""
+def _processes(workers: int | None, most: int) -> int:
+    """How many processes write the sections: as many as there are cores if not given."""
+    return min(CPU_COUNT if workers is None else workers, most)
+
+
+def _write_section(study: Study, runs: Path, folder: Path) -> tuple[Section, dict[str, float]]:
+    """The section of a study, its pictures, tables and recording written into the folder.
+
+    And the CPU seconds of the runs that it read, by their keys.
+    """
+    store = CountingStore(runs)
     pictures, tables, recordings = (folder / name for name in FOLDERS)
     pictures.mkdir(exist_ok=True)
     section = study.section(store, pictures)
@@ -184,7 +224,7 @@ def _write_section(study: Study, store: RunStore, folder: Path) -> Section:
             text=f"# {section.title}\n\n{section.setup}\n\n{section.body}",
             series={name: store.load(case) for name, case in known.items()},
         )
-    return section
+    return section, store.cpu_seconds
 
 
 def _named(keys: Sequence[str], progress: Progress) -> Callable[[float, float], None]:
