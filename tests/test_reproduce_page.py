@@ -234,7 +234,7 @@ def test_damaged_parts_of_a_load_are_refused(
     made: tuple[Reproduction, Path], tmp_path: Path, content: str
 ) -> None:
     store = made[0].store
-    path = next(store.folder.glob("*.parts.json"))
+    path = next(store.folder.glob("*.load_parts.json"))
     pair = Pair("a sea", base_case(), base_case())
     beside = RunStore(tmp_path)
     parts_path(pair, beside).write_text(path.read_text())
