@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 import rerun_cli
+from hypothesis import settings
 from matplotlib.figure import Figure
 
 from panelsim.cli import main
@@ -26,6 +27,10 @@ from panelsim.seaway.components import WaveComponents
 from panelsim.seaway.seaways import CalmSeaway, Seaway
 from panelsim.ship.bundled import load_ship
 from panelsim.ship.ship import Ship
+
+# How long an example takes is the machine's affair: one that others share stops for a while now and then.
+settings.register_profile("panelsim", deadline=None)
+settings.load_profile("panelsim")
 
 SPEED = 5.0
 AMPLITUDE = np.array([0.5, 0.3, 1.2, 0.08, 0.04, 0.02])  # m and rad

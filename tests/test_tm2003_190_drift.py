@@ -44,6 +44,10 @@ class MadeUpRuns:
     def failure(self, case: Case) -> str | None:
         return None
 
+    def rms(self, case: Case) -> tuple[FloatArray, str | None]:
+        run = self.load(case)
+        return run.rms, run.early_end
+
     def load(self, case: Case) -> StoredRun:
         run = case.file.run
         time = run.time_step * np.arange(run.steps + 1)

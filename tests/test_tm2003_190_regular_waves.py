@@ -51,6 +51,10 @@ class MadeUpRuns:
         own = self._failed is not None and self._place(case) == list(np.ndindex(2, 3))[self._failed]
         return "made to fail" if own else None
 
+    def rms(self, case: Case) -> tuple[FloatArray, str | None]:
+        run = self.load(case)
+        return run.rms, run.early_end
+
     def load(self, case: Case) -> StoredRun:
         """Those harmonics, a mean heave of a tenth of the wave, a second one of a twentieth."""
         run, waves = case.file.run, case.seaway.components
