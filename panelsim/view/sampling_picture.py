@@ -15,8 +15,13 @@ def sampling_picture(
     headings: Mapping[str, tuple[Mapping[str, FloatArray], Mapping[str, FloatArray]]],
 ) -> Path:
     """Draw bands (S, 6) over heights (S,) [m]: a row a heading, its lines and its markers by label."""
-    figure = Figure(figsize=(14, 2.9 * len(headings) + 0.6), layout="constrained")
-    rows = figure.subplots(len(headings), 6, sharex=True, sharey="row", squeeze=False)
+    height = 2.9 * len(headings) + 0.6
+    # Margins by hand: of so many panels a layout engine makes most of the time of a page.
+    margins = {"left": 0.05, "right": 0.995, "top": 1.0 - 0.35 / height, "bottom": 0.95 / height}
+    figure = Figure(figsize=(14, height))
+    rows = figure.subplots(
+        len(headings), 6, sharex=True, sharey="row", squeeze=False, gridspec_kw=margins | {"wspace": 0.08}
+    )
     for axes, (heading, (lines, points)) in zip(rows, headings.items(), strict=True):
         for mode, axis in enumerate(axes):
             plain(axis)
@@ -37,7 +42,7 @@ def sampling_picture(
         axis.set_xlabel("significant height [m]")
     figure.legend(
         *rows[0, 0].get_legend_handles_labels(),
-        loc="outside lower center",
+        loc="lower center",
         ncols=4,
         frameon=False,
         fontsize=9,

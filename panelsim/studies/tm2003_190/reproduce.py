@@ -3,7 +3,7 @@
 import json
 import shutil
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, is_dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -171,15 +171,22 @@ class Reproduction:
             return found
         with local_client(processes) as client:
             # Those that read most come first, or the last one would keep the others waiting.
-            futures = [
-                client.submit(_write_section, study, self.runs, folder, pure=False, priority=len(study.cases))
-                for study in self.studies
-            ]
+            order = sorted(range(len(self.studies)), key=lambda i: -len(self.studies[i].cases))
+            futures = {
+                i: client.submit(_write_section, _anew(self.studies[i]), self.runs, folder, pure=False)
+                for i in order
+            }
             found = []
-            for done, future in enumerate(futures):
-                told(done)
-                found.append(future.result())
+            for i in range(len(self.studies)):
+                told(i)
+                found.append(futures[i].result())
             return found
+
+
+def _anew(study: Study) -> Study:
+    """The study without what it remembers: thousands of cases, which take longer to send than to make."""
+    assert is_dataclass(study) and not isinstance(study, type)
+    return replace(study)
 
 
 def reproduction(*, quick: bool, runs: Path) -> Reproduction:

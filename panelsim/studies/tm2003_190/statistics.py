@@ -33,7 +33,7 @@ from panelsim.studies.tm2003_190.section import Section
 from panelsim.view.sampling_picture import sampling_picture
 
 BANDS = (0.10, 0.05)
-JITTERED = 20  # realizations of other frequencies, in the frequency domain alone
+JITTERED = 12  # realizations of other frequencies, in the frequency domain alone
 SEA_STATE_7 = tuple(StudySea(f"{heading:g}°", heading, 7.5, 15.0) for heading in HEADINGS_DEG)  # section 8.4
 
 
