@@ -39,6 +39,10 @@ class MadeUpRuns:
     def failure(self, case: Case) -> str | None:
         return None
 
+    def rms(self, case: Case) -> tuple[FloatArray, str | None]:
+        run = self.load(case)
+        return run.rms, run.early_end
+
     def load(self, case: Case) -> StoredRun:
         motions = self._motions[case.file.run.model, "heave" in case.supplementary.stiffness]
         return stored(motions, self._step)

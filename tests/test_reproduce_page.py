@@ -3,10 +3,14 @@
 import json
 import socket
 from collections.abc import Callable
+from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from distributed import KilledWorker
 
 from panelsim.case import Case
 from panelsim.errors import PanelsimError
@@ -300,3 +304,21 @@ def test_parts_of_the_load_explain_the_difference_of_the_models(made: tuple[Repr
     apart = (runs[1].displacement - runs[0].displacement)[runs[1].after_ramp].std(axis=0)
     waves = answer_to(nonlinear, runs[1].time, pressure_parts(nonlinear, runs[1])[0])
     np.testing.assert_allclose(found.rms[0], waves[runs[1].after_ramp].std(axis=0) / apart, rtol=1e-9)
+
+
+def test_a_process_that_is_lost_leaves_its_section_to_this_one(
+    made: tuple[Reproduction, Path], undrawn: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    study = made[0]
+    one = study.studies[0]
+    assert isinstance(one, LinearNonlinear)
+
+    def killed() -> None:
+        raise KilledWorker("a section", None, 3)
+
+    client = SimpleNamespace(submit=lambda *_, **__: SimpleNamespace(result=killed))
+    monkeypatch.setattr(reproduce, "local_client", lambda processes: nullcontext(client))
+    twice = replace(study, studies=[one, replace(one, key="again")])
+    sections = twice.make_page(tmp_path / "page", workers=2)
+    assert [section.key for section in sections] == [one.key, "again"]
+    assert sections[0].body == sections[1].body and "Against linear" in sections[0].body

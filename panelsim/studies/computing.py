@@ -4,7 +4,7 @@ import os
 from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import closing, suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from panelsim.case import Case
 from panelsim.errors import PanelsimError, require_kind
@@ -157,7 +157,7 @@ def _by_dask(client: "Client", groups: Sequence[Sequence[Case]]) -> Answers:
     waiting = as_completed(list(asked), loop=client.loop)
     for future in waiting:
         made = asked.pop(future)
-        answers = _result(future)
+        answers: list[Answer] | None = result_of(future)
         future.release()
         if answers is None and len(made) > 1:
             alone = {_submit(client, [case], -len(groups)): [case] for case in made}
@@ -179,13 +179,12 @@ def _in_worker(requests: Sequence[Request]) -> list[Answer]:
         return make_group(requests)
 
 
-def _result(future: "Future") -> list[Answer] | None:
+def result_of(future: "Future") -> Any | None:
     """What a task gave; None where its workers were lost. PanelsimError where the whole cluster was."""
     from distributed import KilledWorker
 
     try:
-        answers: list[Answer] = future.result()
-        return answers
+        return future.result()
     except KilledWorker:
         return None
     except (CancelledError, OSError) as error:

@@ -14,7 +14,6 @@ from panelsim.seaway.steepness import BUCKLEY_STEEPNESS
 
 STERN_QUARTERING, BOW_QUARTERING = 30.0, 150.0  # wave heading, deg
 HEADINGS_DEG = (STERN_QUARTERING, BOW_QUARTERING)
-HEADING_NAMES = {STERN_QUARTERING: "stern quartering seas", BOW_QUARTERING: "bow quartering seas"}
 LIMITING_STEEPNESS = BUCKLEY_STEEPNESS
 TYPICAL_STEEPNESS = 0.021  # section 8.3
 # At the limiting steepness half of the energy of a sea of 1 m is above the 2.0 rad/s where the report's

@@ -39,7 +39,6 @@ from panelsim.view.rms_pictures import rms_over_height
 
 PANEL_AREAS = (5.0, 2.5, 1.0)  # m2: coarse, medium, fine, Table 3
 COARSE, MEDIUM, FINE = (f"{area:g} m²" for area in PANEL_AREAS)
-MEDIUM_SAYS = "medium and fine mesh give"
 CUT, WHOLE = "cut panels", "whole panels"
 RULES = {CUT: "vertex+centre", WHOLE: "panel"}
 
@@ -96,9 +95,9 @@ class Mesh:
                 for wetting, study in studies.items()
             ),
             tuple(
-                self._with_cause(one, wetting, studies, store)
+                self._with_cause(one, wetting, level, studies, store)
                 for wetting in studies
-                for one in statements(wetting, studies[wetting])
+                for level, one in zip((MEDIUM, COARSE), statements(wetting, studies[wetting]), strict=True)
             ),
             tuple(
                 (
@@ -122,11 +121,15 @@ class Mesh:
         )
 
     def _with_cause(
-        self, statement: Statement, wetting: str, studies: Mapping[str, RmsStudy], store: RunStore
+        self,
+        statement: Statement,
+        wetting: str,
+        level: str,
+        studies: Mapping[str, RmsStudy],
+        store: RunStore,
     ) -> Statement:
-        """A statement that does not hold, with what the runs say of why."""
+        """A statement of a mesh that does not hold, with what the runs say of why."""
         own = against(studies[wetting], FINE)
-        level = MEDIUM if MEDIUM_SAYS in statement.says else COARSE
         found = worst(own, level, everywhere(own))
         if statement.holds or found is None or np.isnan(found.amount):
             return statement
@@ -161,7 +164,7 @@ def statements(wetting: str, study: RmsStudy) -> tuple[Statement, Statement]:
     coarse = both(beyond(own, COARSE, all_of_it, IDENTICAL), within(own, COARSE, all_of_it, SLIGHT))
     return (
         Statement(
-            f"{wetting}: {MEDIUM_SAYS} effectively identical results (8.2)",
+            f"{wetting}: medium and fine mesh give effectively identical results (8.2)",
             medium.holds,
             medium.figure,
             "" if medium.holds else where_it_counts(own, MEDIUM, IDENTICAL),
@@ -178,7 +181,7 @@ def statements(wetting: str, study: RmsStudy) -> tuple[Statement, Statement]:
 def _one_figure(study: RmsStudy, finding: Finding) -> str:
     """The difference once, beside both bounds."""
     found = worst(study, COARSE, everywhere(study))
-    if found is None or found.amount != found.amount:
+    if found is None or np.isnan(found.amount):
         return finding.figure
     chance = [by_chance(study, COARSE, everywhere(study), bound) for bound in (IDENTICAL, SLIGHT)]
     bounds = f"{'' if finding.holds else 'not '}in {100 * IDENTICAL:g} to {100 * SLIGHT:g} %"

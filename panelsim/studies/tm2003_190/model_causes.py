@@ -34,8 +34,7 @@ class Pair:
         """Whether both runs are there to their end."""
         cases = (self.linear, self.nonlinear)
         return all(
-            case in store and store.failure(case) is None and store.load(case).early_end is None
-            for case in cases
+            case in store and store.failure(case) is None and store.rms(case)[1] is None for case in cases
         )
 
 
@@ -58,9 +57,11 @@ def frequencies_of(pairs: Sequence[Pair], store: RunStore) -> Frequencies:
     for pair in pairs:
         if not pair.finished(store):
             continue
-        linear, nonlinear = (_at_waves(case, store) for case in (pair.linear, pair.nonlinear))
-        elsewhere.append(1.0 - (nonlinear / store.load(pair.nonlinear).rms) ** 2)
-        control.append(1.0 - (linear / store.load(pair.linear).rms) ** 2)
+        cases = (pair.linear, pair.nonlinear)
+        linear, nonlinear = (_at_waves(case, store) for case in cases)
+        of_linear, of_nonlinear = (store.rms(case)[0] for case in cases)
+        elsewhere.append(1.0 - (nonlinear / of_nonlinear) ** 2)
+        control.append(1.0 - (linear / of_linear) ** 2)
         change.append(nonlinear / linear - 1.0)
         names.append(pair.sea)
     return Frequencies(tuple(names), *(np.reshape(one, (-1, 6)) for one in (elsewhere, control, change)))

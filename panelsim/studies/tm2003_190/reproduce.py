@@ -14,7 +14,7 @@ from panelsim.case import Case
 from panelsim.errors import PanelsimError
 from panelsim.files import read_json_table, replacing, write_whole
 from panelsim.studies.cluster import local_client
-from panelsim.studies.computing import compute_runs, require_cluster, require_processes
+from panelsim.studies.computing import compute_runs, require_cluster, require_processes, result_of
 from panelsim.studies.run_store import RunStore, StoredRun, run_key
 from panelsim.studies.tm2003_190.common import FULL, QUICK, Scope, base_case
 from panelsim.studies.tm2003_190.cost import Cost
@@ -179,7 +179,9 @@ class Reproduction:
             found = []
             for i in range(len(self.studies)):
                 told(i)
-                found.append(futures[i].result())
+                made = result_of(futures[i])
+                # A process that is lost leaves its section to this one.
+                found.append(_write_section(self.studies[i], self.runs, folder) if made is None else made)
             return found
 
 
