@@ -1,6 +1,8 @@
 """What makes the difference of the models: loads taken apart, frequencies, a ship that is held."""
 
 from collections.abc import Mapping
+from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -9,7 +11,8 @@ from panelsim.case import Case
 from panelsim.conventions import Dof, FloatArray
 from panelsim.seaway.components import WaveComponents
 from panelsim.studies.run_store import StoredRun
-from panelsim.studies.tm2003_190.common import base_case, in_sea, study_sea
+from panelsim.studies.tm2003_190 import mesh
+from panelsim.studies.tm2003_190.common import Scope, base_case, in_sea, study_sea
 from panelsim.studies.tm2003_190.held_runs import held, held_in_words, held_markdown, what_stays
 from panelsim.studies.tm2003_190.load_parts import LoadParts, answer_to, pressure_parts
 from panelsim.studies.tm2003_190.model_causes import (
@@ -21,7 +24,7 @@ from panelsim.studies.tm2003_190.model_causes import (
     loads_in_words,
     parts_markdown,
 )
-from panelsim.studies.tm2003_190.wave_frequencies import at_wave_frequencies
+from panelsim.studies.tm2003_190.wave_frequencies import LEAST_SHARE, at_wave_frequencies
 
 VERTICAL, HORIZONTAL = [Dof.HEAVE, Dof.PITCH], [Dof.SURGE, Dof.SWAY, Dof.YAW]
 WAVES, MOTIONS, WITH_VERTICAL, WITH_HORIZONTAL, REST = range(5)
@@ -228,3 +231,59 @@ def test_what_stays_with_heave_and_pitch_held(bow: Case) -> None:
     assert "| a sea | 25 | 25 | 25 | 25 |" in held_markdown({"a sea": stays})
     assert held_in_words(np.full(6, np.nan)) == ""
     assert "| a sea | – |" in held_markdown({"a sea": np.full(6, np.nan)})
+
+
+class RollOfMeshes:
+    """Runs that roll with a wave and at 3 rad/s, where no wave is met: how much, by wetting and panel area.
+
+    In bow quartering seas all are alike, and so are the other motions in all seas.
+    """
+
+    AMPLITUDES: ClassVar = {
+        ("vertex+centre", 1.0): (1.0, 1.0),
+        ("vertex+centre", 2.5): (1.1, 1.2),
+        ("vertex+centre", 5.0): (1.2, 1.5),
+        ("panel", 1.0): (1.0, 1.0),
+        ("panel", 2.5): (1.0, 1.5),
+        ("panel", 5.0): (1.0, 2.0),
+    }
+
+    def __contains__(self, case: Case) -> bool:
+        return True
+
+    def failure(self, case: Case) -> str | None:
+        return None
+
+    def rms(self, case: Case) -> tuple[FloatArray, str | None]:
+        return self.load(case).rms, None
+
+    def load(self, case: Case) -> StoredRun:
+        waves = case.seaway.components
+        energetic = waves.amplitude**2 > 2.0 * LEAST_SHARE * waves.variance
+        # The fastest of them, which no other comes near.
+        met = np.abs(waves.encounter_frequency(case.speed, case.file.ship.gravity)[energetic]).max()
+        time = 0.2 * np.arange(1501)
+        motions = np.repeat(np.cos(met * time)[:, None], 6, axis=1)
+        key = case.file.run.pressure_rule, case.file.ship.panel_area or 0.0
+        at_wave, elsewhere = self.AMPLITUDES[key] if case.file.seaway.wave_heading_deg == 30.0 else (1.0, 1.0)
+        motions[:, Dof.ROLL] = at_wave * np.cos(met * time) + elsewhere * np.cos(3.0 * time)
+        return stored(motions)
+
+
+def test_a_mesh_that_differs_says_at_which_frequencies_and_what_cutting_brings(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(mesh, "rms_over_height", lambda study, heading, path: path)
+    study = mesh.Mesh(base_case(), Scope((2.0,), 1, 1, 300.0))
+    medium, coarse, whole_medium, whole_coarse = study.section(
+        RollOfMeshes(),  # type: ignore[arg-type]
+        tmp_path,
+    ).statements
+    # The whole: √((1.2² + 1.5²)/2) - 1 = 36 %. Elsewhere: 1.5²/(1.2² + 1.5²) = 61 %.
+    assert "+36 % in roll" in coarse.figures and "+15 % in roll" in medium.figures
+    assert "roll is +20 % off there" in coarse.remark and "61 % of its variance" in coarse.remark
+    assert "roll is +10 % off there" in medium.remark and "54 % of its variance" in medium.remark
+    # √((1 + 2²)/2) - 1 = 58 % of whole panels, beside what the same mesh has cut.
+    assert "+58 % in roll" in whole_coarse.figures
+    assert "cut at the water the same mesh is at most +36 % in roll" in whole_coarse.remark
+    assert "cut at the water the same mesh is at most +15 % in roll" in whole_medium.remark

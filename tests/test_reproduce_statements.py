@@ -1,6 +1,7 @@
 """Verdicts on the sentences of TM 2003-190: each holds on made-up RMS, and each can flip."""
 
 import re
+import tomllib
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -8,7 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from panelsim.case.template import case_template
 from panelsim.conventions import Dof
+from panelsim.hull.form import load_hull
 from panelsim.results.rms_study import RmsStudy
 from panelsim.studies.cost import CostRow
 from panelsim.studies.tm2003_190 import reproduce
@@ -345,6 +348,14 @@ def test_the_runs_that_are_timed_are_those_of_table_4() -> None:
     # TM 2003-190, Table 4.
     assert list(TABLE_4["linear"].items()) == [(19, 0.019), (37, 0.027), (160, 0.084)]
     assert list(TABLE_4["nonlinear"].items()) == [(19, 0.254), (37, 0.435), (160, 1.636)]
+
+
+def test_the_default_step_is_that_of_a_new_case() -> None:
+    new = tomllib.loads(case_template(load_hull("halifax"), "halifax"))["run"]["time_step"]
+    base = base_case()
+    cost = Cost(base, 120.0, 3)
+    assert {case.file.run.time_step for case in cost.of_default_step.values()} == {new} != {0.2}
+    assert {case.file.run.time_step for case in cost.of_table.values()} == {0.2}
 
 
 def test_a_realization_has_the_same_phases_in_every_study_and_from_each_heading() -> None:

@@ -55,6 +55,18 @@ def test_rms_over_height_has_a_line_a_level_in_order_of_height(tmp_path: Path, d
     assert lines[2].get_zorder() < lines[0].get_zorder()
 
 
+def test_differences_of_many_per_cent_are_drawn_by_their_logarithm(
+    tmp_path: Path, drawn: list[Figure]
+) -> None:
+    wide = study()
+    wide.rms[0, :, :, 2] *= 1.5  # heave of the coarse step: 56 %
+    rms_over_height(wide, 150.0, tmp_path / "rms.png")
+    surge, heave = drawn[0].axes[3], drawn[0].axes[5]
+    assert (surge.get_yscale(), heave.get_yscale()) == ("linear", "symlog")
+    assert heave.get_ylim()[1] > 56.0 and heave.get_ylim()[0] == -heave.get_ylim()[1]
+    assert [label.get_text() for label in heave.get_yticklabels()] == ["-10", "-1", "0", "1", "10"]
+
+
 def test_the_band_is_drawn_where_it_is_known(tmp_path: Path, drawn: list[Figure]) -> None:
     rms_over_height(study(realizations=4), 30.0, tmp_path / "rms.png")
     axis = drawn[0].axes[0]

@@ -57,6 +57,19 @@ def test_its_rms_is_that_of_the_statistics(store: RunStore, case: Case, make_his
     np.testing.assert_allclose(store.load(case).rms, [motions[name].rms for name in motions], rtol=1e-13)
 
 
+def test_the_rms_is_known_without_the_motions(store: RunStore, case: Case, make_history: Any) -> None:
+    keep(store, case, make_history())
+    expected = store.load(case).rms
+    with h5py.File(store.path(case), "a") as file:
+        del file["displacement"]
+    again = RunStore(store.folder)
+    rms, early_end = again.rms(case)
+    assert rms.tobytes() == expected.tobytes() and early_end is None
+    assert set(again.told) == {run_key(case)}
+    store.path(case).unlink()
+    assert again.rms(case)[0].tobytes() == expected.tobytes()  # it is read once
+
+
 def test_a_run_that_ended_early_says_so_and_has_no_rms(
     store: RunStore, case: Case, make_history: Any
 ) -> None:
@@ -132,8 +145,9 @@ def test_a_run_of_another_case_under_this_name_is_refused(
     other = case.changed({"seaway.seed": 7})
     keep(store, other, make_history())
     store.path(other).rename(store.path(case))
-    with pytest.raises(PanelsimError, match="of another case"):
-        store.load(case)
+    for read in (store.load, store.rms):
+        with pytest.raises(PanelsimError, match="of another case"):
+            read(case)
 
 
 def test_a_run_of_another_version_is_refused(
@@ -142,8 +156,9 @@ def test_a_run_of_another_version_is_refused(
     keep(store, case, make_history())
     store.save_failure(case.changed({"seaway.seed": 7}), "no such sea")
     monkeypatch.setattr(run_store, "panelsim_version", lambda: "9.9.9")
-    with pytest.raises(PanelsimError, match=r"another version(.|\n)*0\.1\.0(.|\n)*9\.9\.9"):
-        store.load(case)
+    for read in (store.load, store.rms):
+        with pytest.raises(PanelsimError, match=r"another version(.|\n)*0\.1\.0(.|\n)*9\.9\.9"):
+            read(case)
     with pytest.raises(PanelsimError, match="another version"):
         store.failure(case.changed({"seaway.seed": 7}))
 
@@ -152,8 +167,9 @@ def test_a_run_of_another_version_is_refused(
 def test_a_file_cut_short_is_refused(store: RunStore, case: Case, make_history: Any, cut: int) -> None:
     keep(store, case, make_history())
     store.path(case).write_bytes(store.path(case).read_bytes()[:cut])
-    with pytest.raises(PanelsimError, match="damaged"):
-        store.load(case)
+    for read in (store.load, store.rms):
+        with pytest.raises(PanelsimError, match="damaged"):
+            read(case)
 
 
 def test_a_file_without_motions_is_refused(store: RunStore, case: Case) -> None:
@@ -168,6 +184,8 @@ def test_a_file_without_motions_is_refused(store: RunStore, case: Case) -> None:
     ("damage", "words"),
     [
         (lambda file: file.attrs.pop("outcome"), "without outcome"),
+        (lambda file: file.attrs.pop("rms"), "without rms"),
+        (lambda file: file.attrs.pop("identity"), "without identity"),
         (lambda file: shorten(file, "displacement"), "another length"),
         (lambda file: shorten(file, "wave_elevation"), "another length"),
         (

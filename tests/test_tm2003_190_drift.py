@@ -291,3 +291,18 @@ def test_the_worst_band_is_of_motions_that_count() -> None:
     values, major = np.array([1.0, 9.0, 2.0, -3.0, 0.0, 0.0]), np.array([1, 0, 1, 1, 1, 1], dtype=bool)
     assert _worst(values, major) == 2.0
     assert np.isnan(_worst(values, np.zeros(6, dtype=bool)))
+
+
+def test_the_wave_that_stands_still_is_left_out_where_it_does() -> None:
+    """At 30° the component of 1.1 rad/s is met at 0.0006 rad/s; at 150° none is slow."""
+    cases = Drift(base_case(), quick=True).free
+    ((kind, heading, model),) = [key for key in cases if key[0] == SLOW_LEFT_OUT]
+    assert (kind, heading, model) == (SLOW_LEFT_OUT, 30.0, "linear")
+    for free, left in zip(cases[FREE, 30.0, "linear"], cases[kind, heading, model], strict=True):
+        assert left.file.seaway.wave_heading_deg == 30.0
+        assert left.file.seaway.seed == free.file.seaway.seed
+        met = [
+            np.abs(case.seaway.components.encounter_frequency(case.speed, 9.80665)).min()
+            for case in (free, left)
+        ]
+        assert met[0] < 0.001 < 0.05 < met[1]

@@ -8,7 +8,8 @@ a run of another case or version is not taken for this one.
 import hashlib
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache, cached_property
 from importlib.metadata import version
@@ -27,7 +28,7 @@ from panelsim.files import as_path, read_json_table, write_whole
 from panelsim.motion.history import History
 
 panelsim_version = cache(lambda: version("panelsim"))  # to look it up takes as long as to read a run
-NEEDED = ("outcome", "outcome_detail", "ramp", "time_step", "cpu_seconds")
+NEEDED = ("outcome", "outcome_detail", "ramp", "time_step", "cpu_seconds", "rms")
 _OF_RUN = ("identity", "panelsim_version")
 KEPT = ("displacement", "wave_elevation")
 RUN_FILE = re.compile(r"[0-9a-f]{20}\.(nc|failed\.json)")  # how the files of a store are called
@@ -51,9 +52,6 @@ class StoredRun:
     @property
     def fault(self) -> str | None:
         """What is wrong with the run as it was read; None where it is whole."""
-        missing = [name for name in NEEDED if name not in self.attrs]
-        if missing:
-            return f"without {', '.join(missing)}"
         rows = len(self.time)
         if rows < 2 or self.displacement.shape != (rows, 6) or self.wave_elevation.shape != (rows,):
             return "motions of another length than the time"
@@ -71,7 +69,7 @@ class StoredRun:
     @property
     def early_end(self) -> str | None:
         """Why the run ended before its time; None where it finished."""
-        return None if self.outcome == "finished" else f"{self.outcome}: {self.attrs['outcome_detail']}"
+        return _early_end(self.attrs)
 
     @cached_property
     def after_ramp(self) -> slice:
@@ -88,12 +86,15 @@ class StoredRun:
 
 
 class RunStore:
-    """A folder of runs."""
+    """A folder of runs.
+
+    `told` is what is `NEEDED` of the runs that have been read, by their keys.
+    """
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = as_path(folder)
+        self.told: dict[str, dict[str, Any]] = {}
         self._lost: dict[str, str] = {}
-        self._rms: dict[str, tuple[FloatArray, str | None]] = {}
 
     def __contains__(self, case: Case) -> bool:
         """Whether the run, or why it failed, is known."""
@@ -109,7 +110,7 @@ class RunStore:
     def save(self, case: Case, content: bytes) -> None:
         """Keep a run as `kept_bytes` made it, whole or not at all."""
         write_whole(self.path(case), content)
-        self._rms.pop(run_key(case), None)
+        self.told.pop(run_key(case), None)
 
     def save_failure(self, case: Case, message: str) -> None:
         """Keep why a case could not be run."""
@@ -130,25 +131,33 @@ class RunStore:
         return str(told.get("message", "the note does not say why"))
 
     def rms(self, case: Case) -> tuple[FloatArray, str | None]:
-        """`StoredRun.rms` and `early_end` of a case; studies that share runs read them once.
+        """`StoredRun.rms` and `early_end` of a case, as they were stored: the motions are not read.
 
-        Raises PanelsimError as `load` does.
+        Studies that share runs read them once. Raises PanelsimError as `load` does, but for damaged motions.
         """
         key = run_key(case)
-        if key not in self._rms:
-            run = self._read(case, NEEDED)
-            self._rms[key] = run.rms, run.early_end
-        return self._rms[key]
+        if key not in self.told:
+            with self._opened(case, (*NEEDED, *_OF_RUN)):
+                pass
+        return np.asarray(self.told[key]["rms"]), _early_end(self.told[key])
 
     def load(self, case: Case) -> StoredRun:
         """The run of a case.
 
         Raises PanelsimError where there is none, where it is damaged, or of another case or version.
         """
-        return self._read(case)
+        with self._opened(case) as (file, attrs):
+            time, displacement, elevation = (file[name][:] for name in ("time", *KEPT))
+        run = StoredRun(time, displacement, elevation, attrs)
+        if run.fault is not None:
+            raise _damaged(self.path(case), run.fault)
+        return run
 
-    def _read(self, case: Case, attributes: Sequence[str] | None = None) -> StoredRun:
-        """The run with some of its attributes, or all: to read them takes as long as half of the motions."""
+    @contextmanager
+    def _opened(
+        self, case: Case, attributes: Sequence[str] | None = None
+    ) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
+        """The file of a run that was found to be of this case, and some of its attributes or all."""
         path = self.path(case)
         if not path.is_file():
             raise PanelsimError(
@@ -156,17 +165,16 @@ class RunStore:
             )
         try:
             with h5py.File(path) as file:
-                names = list(file.attrs) if attributes is None else [*attributes, *_OF_RUN]
-                attrs = {name: _plain(file.attrs[name]) for name in names if name in file.attrs}
-                time, displacement, elevation = (file[name][:] for name in ("time", *KEPT))
+                stored = file.attrs
+                names = attributes or list(stored)
+                attrs = {name: _plain(stored[name]) for name in names if name in stored}
+                _require_told(path, attrs, _OF_RUN)
+                _require_same(path, attrs, case)
+                _require_told(path, attrs, NEEDED)
+                self.told[run_key(case)] = {name: attrs[name] for name in NEEDED}
+                yield file, attrs
         except (OSError, KeyError, RuntimeError) as error:
-            raise PanelsimError("A stored run is damaged", got=f"{path} ({error})", remedy=_AGAIN) from error
-        _require_same(path, attrs, case)
-        run = StoredRun(time, displacement, elevation, attrs)
-        fault = run.fault
-        if fault is not None:
-            raise PanelsimError("A stored run is damaged", got=f"{path} ({fault})", remedy=_AGAIN)
-        return run
+            raise _damaged(path, error) from error
 
 
 def run_identity(case: Case) -> str:
@@ -189,10 +197,13 @@ def run_key(case: Case) -> str:
 
 
 def kept_bytes(history: History, identity: str) -> bytes:
-    """The NetCDF file of a run: motions, wave and attributes of its history, and its `run_identity`."""
-    dataset = history.dataset[list(KEPT)].assign_attrs(history.attrs | {"identity": identity})
-    encoding = {name: {"zlib": True, "complevel": 4, "shuffle": True} for name in KEPT}
-    return bytes(dataset.to_netcdf(engine="h5netcdf", encoding=encoding))
+    """The NetCDF file of a run: motions, wave and attributes of its history, its `run_identity` and RMS.
+
+    Not compressed: that would take an eighth of the size, and thrice the time to read.
+    """
+    run = StoredRun(history.time, history.displacement, history.wave_elevation, history.attrs)
+    dataset = history.dataset[list(KEPT)].assign_attrs(history.attrs | {"identity": identity, "rms": run.rms})
+    return bytes(dataset.to_netcdf(engine="h5netcdf"))
 
 
 def file_digests(case: Case) -> dict[str, str]:
@@ -231,6 +242,20 @@ def _require_same(path: Path, told: dict[str, Any], case: Case) -> None:
         raise PanelsimError("A stored run is of another case", got=path, remedy=_ANOTHER)
 
 
+def _early_end(attrs: Mapping[str, Any]) -> str | None:
+    return None if attrs["outcome"] == "finished" else f"{attrs['outcome']}: {attrs['outcome_detail']}"
+
+
+def _require_told(path: Path, attrs: Mapping[str, Any], names: Sequence[str]) -> None:
+    missing = [name for name in names if name not in attrs]
+    if missing:
+        raise _damaged(path, f"without {', '.join(missing)}")
+
+
+def _damaged(path: Path, fault: object) -> PanelsimError:
+    return PanelsimError("A stored run is damaged", got=f"{path} ({fault})", remedy=_AGAIN)
+
+
 def _plain(value: Any) -> Any:
     """An attribute as Python has it; numbers come as arrays of one."""
-    return value.item() if isinstance(value, np.generic | np.ndarray) else value
+    return value.item() if isinstance(value, np.generic | np.ndarray) and value.size == 1 else value

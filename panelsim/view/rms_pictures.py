@@ -140,7 +140,8 @@ def _line(index: int) -> dict[str, Any]:
 
 def _panel(axis: Axes, name: str, label: str) -> None:
     plain(axis)
-    axis.set_title(name, fontsize=10)
+    # Its height is given: to find one, every label of the panel would be measured.
+    axis.set_title(name, fontsize=10, y=1.0)
     axis.set_ylabel(label, fontsize=9)
 
 

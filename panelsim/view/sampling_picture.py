@@ -25,7 +25,7 @@ def sampling_picture(
     for axes, (heading, (lines, points)) in zip(rows, headings.items(), strict=True):
         for mode, axis in enumerate(axes):
             plain(axis)
-            axis.set_title(DOF_NAMES[mode], fontsize=10)
+            axis.set_title(DOF_NAMES[mode], fontsize=10, y=1.0)
             for style, color, (label, values) in zip(
                 ("-", ":"), (COLORS[0], INK), lines.items(), strict=False
             ):

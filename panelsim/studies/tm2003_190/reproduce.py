@@ -15,7 +15,7 @@ from panelsim.errors import PanelsimError
 from panelsim.files import read_json_table, replacing, write_whole
 from panelsim.studies.cluster import local_client
 from panelsim.studies.computing import compute_runs, require_cluster, require_processes, result_of
-from panelsim.studies.run_store import RunStore, StoredRun, run_key
+from panelsim.studies.run_store import RunStore, run_key
 from panelsim.studies.tm2003_190.common import FULL, QUICK, Scope, base_case
 from panelsim.studies.tm2003_190.cost import Cost
 from panelsim.studies.tm2003_190.drift import Drift
@@ -35,19 +35,6 @@ NAME = "tm2003-190"
 FILES = "files.json"  # in the folder of the page: which files are of it
 FOLDERS = ("pictures", "tables", "recordings")
 Progress = Callable[[str, float, float], None]  # key of the study, done, in all
-
-
-class CountingStore(RunStore):
-    """Runs on disk, with the CPU seconds of those that have been read: reading all of them takes a while."""
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(folder)
-        self.cpu_seconds: dict[str, float] = {}
-
-    def _read(self, case: Case, attributes: Sequence[str] | None = None) -> StoredRun:
-        run = super()._read(case, attributes)
-        self.cpu_seconds[run_key(case)] = float(run.attrs["cpu_seconds"])
-        return run
 
 
 @dataclass(frozen=True)
@@ -164,24 +151,26 @@ class Reproduction:
                 progress(f"page: {self.studies[done].key}", done, len(self.studies))
 
         if processes == 1:
-            found = []
+            # One store: what a study has read of the runs the others need not read again.
+            found, store = [], self.store
             for done, study in enumerate(self.studies):
                 told(done)
-                found.append(_write_section(study, self.runs, folder))
+                found.append(_write_section(study, store, folder))
             return found
         with local_client(processes) as client:
             # Those that read most come first, or the last one would keep the others waiting.
             order = sorted(range(len(self.studies)), key=lambda i: -len(self.studies[i].cases))
             futures = {
-                i: client.submit(_write_section, _anew(self.studies[i]), self.runs, folder, pure=False)
+                i: client.submit(_write_section, _anew(self.studies[i]), self.store, folder, pure=False)
                 for i in order
             }
             found = []
             for i in range(len(self.studies)):
                 told(i)
                 made = result_of(futures[i])
-                # A process that is lost leaves its section to this one.
-                found.append(_write_section(self.studies[i], self.runs, folder) if made is None else made)
+                if made is None:  # a process that is lost leaves its section to this one
+                    made = _write_section(self.studies[i], self.store, folder)
+                found.append(made)
             return found
 
 
@@ -213,12 +202,11 @@ def _processes(workers: int | None, most: int) -> int:
     return min(CPU_COUNT if workers is None else workers, most)
 
 
-def _write_section(study: Study, runs: Path, folder: Path) -> tuple[Section, dict[str, float]]:
+def _write_section(study: Study, store: RunStore, folder: Path) -> tuple[Section, dict[str, float]]:
     """The section of a study, its pictures, tables and recording written into the folder.
 
     And the CPU seconds of the runs that it read, by their keys.
     """
-    store = CountingStore(runs)
     pictures, tables, recordings = (folder / name for name in FOLDERS)
     pictures.mkdir(exist_ok=True)
     section = study.section(store, pictures)
@@ -233,7 +221,7 @@ def _write_section(study: Study, runs: Path, folder: Path) -> tuple[Section, dic
             text=f"# {section.title}\n\n{section.setup}\n\n{section.body}",
             series={name: store.load(case) for name, case in known.items()},
         )
-    return section, store.cpu_seconds
+    return section, {key: float(told["cpu_seconds"]) for key, told in store.told.items()}
 
 
 def _named(keys: Sequence[str], progress: Progress) -> Callable[[float, float], None]:
