@@ -16,6 +16,7 @@ STANDARD_GRAVITY = 9.80665  # m/s2
 SALT_WATER_DENSITY = 1025.0  # kg/m3
 FRESH_WATER_DENSITY = 1000.0  # kg/m3
 KNOT = 1852.0 / 3600.0  # m/s
+CONFIDENCE = 0.95  # of every confidence band
 
 # How the wave pressure reaches up to the instantaneous surface: Wheeler's stretching, or not at all.
 STRETCHINGS = ("wheeler", "none")

@@ -12,7 +12,7 @@ from panelsim.results.convergence_order import convergence_order
 from panelsim.results.difference_band import difference_band
 from panelsim.results.rms_study import RmsStudy, StudySea
 from panelsim.results.rms_tables import difference_markdown, rms_csv, rms_markdown
-from panelsim.results.verdicts import words, worst_difference
+from panelsim.results.verdicts import from_heading, words, worst_difference
 
 # Sway and roll are below 5 % of the largest of their kind.
 BASE = np.array([0.5, 0.02, 1.0, 0.001, 0.04, 0.03])  # m, rad
@@ -55,19 +55,19 @@ def test_the_worst_difference_has_its_sign_mode_and_sea_and_passes_over_minor_mo
     assert worst.amount == pytest.approx(1.01 * 0.9 - 1.0, rel=1e-12)
     assert (worst.mode, worst.sea) == ("pitch", SEAS[1])
     assert worst.told == "-9.1 % in pitch (high, 150°)"
-    assert worst_difference(study, 1, 30.0).amount == pytest.approx(0.01, rel=1e-12)
+    assert worst_difference(study, 1, from_heading(study, 30.0)).amount == pytest.approx(0.01, rel=1e-12)
 
 
 def test_a_run_that_failed_is_the_worst_of_all() -> None:
     study = made_up([1.0, 1.2], [0.1, 0.2], reference=0)
     study.rms[1, 0] = np.nan
     assert np.isnan(worst_difference(study, 1).amount)
-    assert worst_difference(study, 1, 150.0).amount == pytest.approx(0.2, rel=1e-12)
+    assert worst_difference(study, 1, from_heading(study, 150.0)).amount == pytest.approx(0.2, rel=1e-12)
     assert "a run did not finish (low, 30°) | not known" in difference_markdown(study)
     study = made_up([1.0, 1.2], [0.1, 0.2], reference=0)
     study.rms[0, 1] = np.nan  # that of the reference
     assert np.isnan(worst_difference(study, 1).amount)
-    assert worst_difference(study, 1, 30.0).amount == pytest.approx(0.2, rel=1e-12)
+    assert worst_difference(study, 1, from_heading(study, 30.0)).amount == pytest.approx(0.2, rel=1e-12)
 
 
 def test_csv_gives_back_every_run_in_metres_and_degrees_with_units_in_the_header() -> None:

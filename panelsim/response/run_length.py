@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.special import sici
 from scipy.stats import norm
 
-from panelsim.conventions import FloatArray
+from panelsim.conventions import CONFIDENCE, FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.response.sampling import variance_scatter
 from panelsim.response.transfer_functions import TransferFunctions
@@ -17,7 +17,6 @@ from panelsim.seaway.random import RandomSeaway
 from panelsim.seaway.seaways import Seaway
 from panelsim.seaway.spectra.point_spectrum import PointSpectrum
 
-CONFIDENCE = 0.95
 LONGEST = 86400.0  # s: no run is longer than a day, in which weather changes
 SHORTEST = 10.0  # s
 # Shares of the energy left out below and above, and the width of a band over its frequency.
@@ -28,8 +27,6 @@ _EXCESS = 0.01  # of the band: what the search for a run length may overlook
 # of a wave that stands still beside the ship as the square, of a band of waves little.
 _STEP_OF_WAVES, _STEP_OF_SPECTRUM = 1.02, 1.1
 _COARSE = 0.1  # step of the logarithm of the length in what bounds it from above
-
-
 # Of the standard error of a variance, for half the width of the band of its root.
 _ONE_SIDE = 0.5 * float(norm.ppf(0.5 + 0.5 * CONFIDENCE))
 

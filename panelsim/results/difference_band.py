@@ -3,8 +3,8 @@
 import numpy as np
 from scipy.stats import t as student
 
-from panelsim.conventions import FloatArray
-from panelsim.results.rms_study import CONFIDENCE, RmsStudy
+from panelsim.conventions import CONFIDENCE, FloatArray
+from panelsim.results.rms_study import RmsStudy
 
 
 def difference_band(study: RmsStudy) -> FloatArray:

@@ -10,9 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import t as student
 
-from panelsim.conventions import FloatArray
+from panelsim.conventions import CONFIDENCE, FloatArray
 
-CONFIDENCE = 0.95
 # A mode with less than this of the largest rotation or translation of the same run counts for nothing.
 MINOR = 0.05
 

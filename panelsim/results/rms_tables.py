@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from panelsim.conventions import DOF_NAMES, FloatArray
+from panelsim.conventions import CONFIDENCE, DOF_NAMES, FloatArray
 from panelsim.results.difference_band import difference_band
-from panelsim.results.rms_study import CONFIDENCE, RmsStudy
+from panelsim.results.rms_study import RmsStudy
 from panelsim.results.statistics import display_unit
-from panelsim.results.verdicts import per_cent, words, worst_difference
+from panelsim.results.verdicts import from_heading, per_cent, words, worst_difference
 
 SEA_COLUMNS = ("sea", "wave_heading [deg]", "significant_wave_height [m]", "peak_period [s]")
 
@@ -72,7 +72,7 @@ def difference_markdown(study: RmsStudy) -> str:
     rows = []
     for level in range(len(study.levels)):
         for heading in headings if level != study.reference else ():
-            worst = worst_difference(study, level, heading)
+            worst = worst_difference(study, level, from_heading(study, heading))
             cells = [per_cent(value, half) for value, half in _largest(study, level, heading)]
             rows.append([study.levels[level], f"{heading:g}", *cells, worst.told, words(worst.amount)])
     heads = ["level", "wave heading [deg]", *(f"{name} [%]" for name in DOF_NAMES), "worst", "this is"]

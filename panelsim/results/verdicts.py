@@ -3,10 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from panelsim.conventions import DOF_NAMES
+from panelsim.conventions import DOF_NAMES, FloatArray
 from panelsim.results.difference_band import difference_band
 from panelsim.results.rms_study import RmsStudy, StudySea
+
+Mask = NDArray[np.bool_]  # (S, 6): which modes in which seas
 
 # Differences of RMS, minor modes left out. The classes overlap: 3 % is slight, of little influence and
 # noticeable.
@@ -63,24 +66,42 @@ class WorstDifference:
         return f"{per_cent(self.amount, self.band)} % in {self.mode} ({self.sea.label})"
 
 
-def worst_difference(study: RmsStudy, level: int, wave_heading_deg: float | None = None) -> WorstDifference:
-    """The worst of all seas and major modes, or of the seas from one heading [deg].
+def from_heading(study: RmsStudy, wave_heading_deg: float) -> Mask:
+    """All modes (S, 6) in the seas from a heading."""
+    here = [sea.wave_heading_deg == wave_heading_deg for sea in study.seas]
+    return np.repeat(np.array(here)[:, None], 6, axis=1)
 
-    The amount is NaN where a run of the level or of the reference did not go to its end.
+
+def unfinished(study: RmsStudy, level: int) -> Mask:
+    """Where a run of the level or of the reference did not go to its end (S, 6)."""
+    return np.asarray(np.isnan(study.pooled[level]) | np.isnan(study.pooled[study.reference]))
+
+
+def difference_sizes(study: RmsStudy, level: int, among: Mask | None = None) -> FloatArray:
+    """Size of the differences (S, 6), of all or some: infinite where a run failed, -1 where none counts.
+
+    A run that failed is worse than any that did not.
     """
-    chosen = [
-        i
-        for i, sea in enumerate(study.seas)
-        if wave_heading_deg is None or sea.wave_heading_deg == wave_heading_deg
-    ]
-    # A run that failed is worse than any that did not.
-    failed = np.isnan(study.pooled[level]) | np.isnan(study.pooled[study.reference])
-    size = np.where(failed, np.inf, np.nan_to_num(np.abs(study.difference[level]), nan=-1.0))[chosen]
-    row, mode = np.unravel_index(int(np.argmax(size)), size.shape)
-    sea = chosen[int(row)]
+    chosen = np.ones((len(study.seas), 6), dtype=bool) if among is None else among
+    known = np.where(chosen, np.nan_to_num(np.abs(study.difference[level]), nan=-1.0), -1.0)
+    return np.where(chosen & unfinished(study, level), np.inf, known)
+
+
+def difference_at(study: RmsStudy, level: int, sea: int, mode: int) -> WorstDifference:
+    """The difference of one mode in one sea."""
     return WorstDifference(
         float(study.difference[level, sea, mode]),
         study.seas[sea],
-        DOF_NAMES[int(mode)],
+        DOF_NAMES[mode],
         float(difference_band(study)[level, sea, mode]),
     )
+
+
+def worst_difference(study: RmsStudy, level: int, among: Mask | None = None) -> WorstDifference:
+    """The worst of all seas and major modes, or of some of them.
+
+    The amount is NaN where a run of the level or of the reference did not go to its end.
+    """
+    size = difference_sizes(study, level, among)
+    sea, mode = (int(index) for index in np.unravel_index(int(np.argmax(size)), size.shape))
+    return difference_at(study, level, sea, mode)

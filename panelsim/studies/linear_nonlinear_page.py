@@ -4,11 +4,11 @@ from pathlib import Path
 
 import numpy as np
 
-from panelsim.conventions import DOF_NAMES
+from panelsim.conventions import CONFIDENCE, DOF_NAMES
 from panelsim.files import write_whole
 from panelsim.hydro.database import HydroDatabase
 from panelsim.results.difference_band import difference_band
-from panelsim.results.rms_study import CONFIDENCE, MINOR, RmsStudy
+from panelsim.results.rms_study import MINOR, RmsStudy
 from panelsim.results.rms_tables import display_rms, markdown_table, rms_csv
 from panelsim.results.statistics import display_unit
 from panelsim.results.verdicts import words, worst_difference
@@ -43,8 +43,8 @@ def write_linear_nonlinear(
     record_study(folder / RECORDING, [rms], title=title, text=verdict, series=series)
     parts = [
         "How much does it matter that pressure acts on the hull as it is wet at each instant? Both models"
-        " have the same waves. Modes with less than"
-        f" {100.0 * MINOR:g} % of the largest rotation or translation are minor.",
+        f" have the same waves. Modes with less than {100.0 * MINOR:g} % of the largest rotation or"
+        " translation are minor.",
         "## Set-up",
         _setup(study),
         "## Result",

@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 
 from panelsim.case import Case
-from panelsim.conventions import DOF_NAMES, FloatArray
+from panelsim.conventions import CONFIDENCE, DOF_NAMES, FloatArray
 from panelsim.errors import PanelsimError
-from panelsim.results.rms_study import CONFIDENCE, confidence_band
+from panelsim.results.rms_study import confidence_band
 from panelsim.results.statistics import zero_crossing_period
 from panelsim.studies.run_store import RunStore, StoredRun
 from panelsim.studies.sweep_plan import SEEDED, SweepPlan

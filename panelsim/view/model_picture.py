@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from panelsim.conventions import DOF_NAMES, FloatArray
-from panelsim.results.rms_study import CONFIDENCE, RmsStudy
+from panelsim.conventions import CONFIDENCE, DOF_NAMES, FloatArray
+from panelsim.results.rms_study import RmsStudy
 from panelsim.results.rms_tables import display_rms
 from panelsim.results.statistics import display_unit
 from panelsim.view.plots import COLORS, INK, plain, save

@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from panelsim.conventions import DOF_NAMES, FloatArray
+from panelsim.conventions import CONFIDENCE, DOF_NAMES, FloatArray
 from panelsim.errors import PanelsimError
-from panelsim.results.rms_study import CONFIDENCE, MINOR, RmsStudy
+from panelsim.results.rms_study import MINOR, RmsStudy
 from panelsim.results.rms_tables import display_rms
 from panelsim.results.statistics import display_unit
 from panelsim.results.verdicts import IDENTICAL

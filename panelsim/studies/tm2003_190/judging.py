@@ -3,14 +3,20 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from panelsim.conventions import DOF_NAMES, FloatArray
+from panelsim.conventions import DOF_NAMES
 from panelsim.results.difference_band import difference_band
 from panelsim.results.rms_study import RmsStudy
-from panelsim.results.verdicts import WorstDifference, per_cent
-
-Mask = NDArray[np.bool_]  # (S, 6): which modes in which seas
+from panelsim.results.verdicts import (
+    Mask,
+    WorstDifference,
+    difference_at,
+    difference_sizes,
+    from_heading,
+    per_cent,
+    unfinished,
+    worst_difference,
+)
 
 
 @dataclass(frozen=True)
@@ -31,12 +37,6 @@ def everywhere(study: RmsStudy) -> Mask:
     return np.ones((len(study.seas), 6), dtype=bool)
 
 
-def from_heading(study: RmsStudy, wave_heading_deg: float) -> Mask:
-    """All modes in the seas from a heading."""
-    here = [sea.wave_heading_deg == wave_heading_deg for sea in study.seas]
-    return np.repeat(np.array(here)[:, None], 6, axis=1)
-
-
 def of_modes(study: RmsStudy, *modes: int, wave_heading_deg: float, above: float = 0.0) -> Mask:
     """Some modes in the seas from a heading that are higher than `above` [m]."""
     mask = from_heading(study, wave_heading_deg)
@@ -50,9 +50,8 @@ def worst(study: RmsStudy, level: str, mask: Mask) -> WorstDifference | None:
     Its amount is NaN where a run did not go to its end: then nothing is known of the sea.
     """
     row = study.levels.index(level)
-    size = _sizes(study, row, mask)
-    sea, mode = (int(index) for index in np.unravel_index(int(np.argmax(size)), size.shape))
-    return None if size[sea, mode] < 0.0 else _at(study, row, sea, mode)
+    counts = bool((difference_sizes(study, row, mask) >= 0.0).any())
+    return worst_difference(study, row, mask) if counts else None
 
 
 def within(study: RmsStudy, level: str, mask: Mask, most: float, name: str = "") -> Finding:
@@ -82,7 +81,7 @@ def by_chance(study: RmsStudy, level: str, mask: Mask, threshold: float) -> str:
     no band reaches over it.
     """
     row = study.levels.index(level)
-    size = _sizes(study, row, mask)
+    size = difference_sizes(study, row, mask)
     half = np.nan_to_num(difference_band(study)[row])  # of one realization nothing is known
     half[size < 0.0] = 0.0
     if np.any(size - half > threshold) or not np.any(size + half > threshold):
@@ -91,28 +90,7 @@ def by_chance(study: RmsStudy, level: str, mask: Mask, threshold: float) -> str:
     if size[sea, mode] + half[sea, mode] > threshold:
         return " (within the band of chance)"
     sea, mode = (int(index) for index in np.unravel_index(int(np.argmax(size + half)), size.shape))
-    return f" (within the band of chance, which reaches over it: {_at(study, row, sea, mode).told})"
-
-
-def _sizes(study: RmsStudy, row: int, mask: Mask) -> FloatArray:
-    """Size of the differences among these (S, 6): infinite where a run failed, -1 where none counts."""
-    known = np.where(mask, np.nan_to_num(np.abs(study.difference[row]), nan=-1.0), -1.0)
-    return np.where(mask & _failed(study, row), np.inf, known)
-
-
-def _failed(study: RmsStudy, row: int) -> Mask:
-    """Where a run of the level or of the reference did not go to its end (S, 6)."""
-    return np.asarray(np.isnan(study.pooled[row]) | np.isnan(study.pooled[study.reference]))
-
-
-def _at(study: RmsStudy, row: int, sea: int, mode: int) -> WorstDifference:
-    """The difference of one mode in one sea."""
-    return WorstDifference(
-        float(study.difference[row, sea, mode]),
-        study.seas[sea],
-        DOF_NAMES[mode],
-        float(difference_band(study)[row, sea, mode]),
-    )
+    return f" (within the band of chance, which reaches over it: {difference_at(study, row, sea, mode).told})"
 
 
 def both(*halves: Finding) -> Finding:
@@ -129,7 +107,7 @@ def where_it_counts(study: RmsStudy, level: str, threshold: float) -> str:
     """
     row = study.levels.index(level)
     heights = [sea.significant_wave_height or np.nan for sea in study.seas]
-    size = _sizes(study, row, everywhere(study)).max(axis=1)
+    size = difference_sizes(study, row, everywhere(study)).max(axis=1)
     high = [height for height, worst_there in zip(heights, size, strict=True) if worst_there > threshold]
     if not high:
         return ""
@@ -146,7 +124,7 @@ def exceptions(study: RmsStudy, level: str, mask: Mask, threshold: float) -> str
     And whether the band of the difference reaches below the threshold in all of these seas.
     """
     row = study.levels.index(level)
-    size = np.where(_failed(study, row), -1.0, _sizes(study, row, mask))
+    size = np.where(unfinished(study, row), -1.0, difference_sizes(study, row, mask))
     sure = size - np.nan_to_num(difference_band(study)[row]) > threshold
     found = []
     for heading in dict.fromkeys(sea.wave_heading_deg for sea in study.seas):
@@ -158,15 +136,15 @@ def exceptions(study: RmsStudy, level: str, mask: Mask, threshold: float) -> str
                 if beyond_it
             ]
             if heights:
-                largest = _at(study, row, int(np.argmax(np.where(here, size[:, mode], -1.0))), mode)
+                largest = difference_at(study, row, int(np.argmax(np.where(here, size[:, mode], -1.0))), mode)
                 span = (
                     f"{min(heights):g} m" if len(heights) == 1 else f"{min(heights):g} to {max(heights):g} m"
                 )
                 most = f"up to {per_cent(largest.amount, largest.band)} %"
                 chance = "" if np.any(here & sure[:, mode]) else ", within the band of chance"
                 found.append(f"{name} at {heading:g}° ({span}, {most}{chance})")
-    failed = np.asarray(_failed(study, row).any(axis=1))
-    unknown = [sea.label for sea, no in zip(study.seas, failed, strict=True) if no]
+    no_end = unfinished(study, row)
+    unknown = [sea.label for sea, modes in zip(study.seas, no_end, strict=True) if modes.any()]
     return "; ".join(
         f"{told} {', '.join(names)}"
         for told, names in ((f"beyond {100 * threshold:g} %:", found), ("not known:", unknown))
@@ -179,7 +157,7 @@ def _largest_seen(study: RmsStudy, row: int) -> float:
 
     Of the seas in which all runs finished; NaN where there are none.
     """
-    known = ~_failed(study, row).any(axis=1)
+    known = ~unfinished(study, row).any(axis=1)
     change = np.where(study.major, np.abs(study.pooled[row] - study.pooled[study.reference]), 0.0)
     shares = [np.nan]
     for heading in {sea.wave_heading_deg for sea in study.seas}:

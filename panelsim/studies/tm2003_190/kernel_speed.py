@@ -92,11 +92,10 @@ class KernelSpeed:
             "Look-up tables and the pressure kernel (7)",
             "Do look-up tables for sine and exponential make the pressure quicker, and what does the kernel?",
             f"One wetted-surface load of {told['panels']} panels in {told['components']} components, panels"
-            f" cut at"
-            f" the water; all methods in one process and thread take turns, {POSES} poses at a time, CPU"
-            f" time, median of {told['rounds']} rounds ({told['machine']}). Tables of 4096 cosines a turn and"
-            " 65536 exponentials, without interpolation. Compilation is not counted. Our tables are"
-            " read by NumPy from Python, those of the report by C code in a DLL: this is another"
+            f" cut at the water; all methods in one process and thread take turns, {POSES} poses at a time,"
+            f" CPU time, median of {told['rounds']} rounds ({told['machine']}). Tables of 4096 cosines a"
+            " turn and 65536 exponentials, without interpolation. Compilation is not counted. Our tables"
+            " are read by NumPy from Python, those of the report by C code in a DLL: this is another"
             " experiment than its.",
             _table(found),
             statements(found),

@@ -84,11 +84,11 @@ class RegularWaves:
             "Regular waves (9)",
             "Do second-order waves matter for heave and pitch, and how near are time and frequency domain?",
             "Head seas at Fn 0.12 and 0.20; nonlinear runs with Wheeler stretching in sinusoidal and in"
-            " Stokes"
-            f" waves, step {TIME_STEP:g} s; first harmonics of the last {0.5 * MEASURED:g} s, after a ramp of"
-            f" {RAMP:g} s and {TRANSIENT + 0.5 * MEASURED:g} s more. Between the last two windows mean and"
-            f" harmonics change by {unsettled:.1g} of the first harmonic at most. The report's axes are not"
-            " told; here they are λ/L, heave over the wave amplitude and pitch over the wave slope k a.",
+            f" Stokes waves, step {TIME_STEP:g} s; first harmonics of the last {0.5 * MEASURED:g} s, after a"
+            f" ramp of {RAMP:g} s and {TRANSIENT + 0.5 * MEASURED:g} s more. Between the last two windows"
+            f" mean and harmonics change by {unsettled:.1g} of the first harmonic at most. The report's axes"
+            " are not told; here they are λ/L, heave over the wave amplitude and pitch over the wave slope"
+            " k a.",
             self._body(measured, linear) + causes_table(self.runs[SINUSOIDAL], causes),
             (
                 stokes_statement(self.runs[STOKES], measured[STOKES], stokes, linear),
@@ -210,9 +210,8 @@ def domains_statement(runs: RegularRuns, transfer: ComplexArray, linear: Complex
         says,
         holds,
         f"{100 * value:+.2g} % in {MODE_NAMES[at[-1]]} ({runs.told(at[:-1])}, H/λ 1/20),"
-        f" {'' if holds else 'not '}≤"
-        f" {100 * SLIGHT:g} %; of the peak {100 * of_peak[peak]:+.2g} % in {MODE_NAMES[peak[-1]]}"
-        f" ({runs.told(peak[:-1])})",
+        f" {'' if holds else 'not '}≤ {100 * SLIGHT:g} %; of the peak {100 * of_peak[peak]:+.2g} % in"
+        f" {MODE_NAMES[peak[-1]]} ({runs.told(peak[:-1])})",
         f"Within {100 * SLIGHT:g} % from λ/L {near[0]:g} on." if far and near else "",
     )
 
@@ -232,8 +231,7 @@ def _not_identical(runs: RegularRuns, difference: FloatArray) -> str:
 def _not_periodic(runs: dict[str, RegularRuns], measured: dict[str, Measured]) -> list[str]:
     return [
         f"{name}: {runs[name].told(tuple(int(i) for i in index[:-1]))}: {MODE_NAMES[index[-1]]} is not"
-        f" periodic"
-        f" yet, its harmonics change by {100 * found.unsettled[tuple(index)]:.2g} %"
+        f" periodic yet, its harmonics change by {100 * found.unsettled[tuple(index)]:.2g} %"
         for name, found in measured.items()
         for index in np.argwhere(found.unsettled > SETTLED)
     ]

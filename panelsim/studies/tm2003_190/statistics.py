@@ -11,9 +11,9 @@ import numpy as np
 from scipy.stats import norm
 
 from panelsim.case import Case
-from panelsim.conventions import DOF_NAMES, FloatArray
+from panelsim.conventions import CONFIDENCE, DOF_NAMES, FloatArray
 from panelsim.response.response import Response, response
-from panelsim.response.run_length import CONFIDENCE, LONGEST, SamplingError, sampling_error
+from panelsim.response.run_length import LONGEST, SamplingError, sampling_error
 from panelsim.results.rms_study import RmsStudy, StudySea
 from panelsim.results.rms_tables import markdown_table
 from panelsim.seaway.given import ComponentSeaway
@@ -34,6 +34,7 @@ from panelsim.view.sampling_picture import sampling_picture
 
 BANDS = (0.10, 0.05)
 JITTERED = 12  # realizations of other frequencies, in the frequency domain alone
+_ONE_SIDE = float(norm.ppf(0.5 + 0.5 * CONFIDENCE))  # standard deviations of one run
 SEA_STATE_7 = tuple(StudySea(f"{heading:g}°", heading, 7.5, 15.0) for heading in HEADINGS_DEG)  # section 8.4
 
 
@@ -160,8 +161,7 @@ class SamplingStatistics:
         )
         return markdown_table(heads, rows, text_columns=1) + (
             "\nThe worst of the modes that count. Length: from which on one run has the band, ∞ where none"
-            " of a"
-            f" day ({LONGEST:g} s) has; then only other phases help, in so many runs of"
+            f" of a day ({LONGEST:g} s) has; then only other phases help, in so many runs of"
             f" {self.duration / 60:g} minutes. The last column is what the 19 components themselves are off"
             " their spectrum: neither length nor seeds mend it. Where the band is wide it is a sign that one"
             " run tells little, not a bound.\n"
@@ -199,10 +199,8 @@ class SamplingStatistics:
             + markdown_table(heads, rows, text_columns=1)
             + (
                 f"\nH_s 7.5 m, T_p 15 s, RMS against the spectrum, linear, {JITTERED} draws of jittered"
-                f" frequencies. What"
-                " the even grid is off is the same in every run; of jittered frequencies most is chance,"
-                " which more"
-                " seeds average out.\n"
+                " frequencies. What the even grid is off is the same in every run; of jittered frequencies"
+                " most is chance, which more seeds average out.\n"
             )
         )
 
@@ -257,9 +255,6 @@ class SamplingStatistics:
                 counts = "yes" if study.major[i, mode] else "no"
                 writer.writerow([sea.label, name, counts, *(f"{value:.4g}" for value in columns[:, mode])])
         return text.getvalue()
-
-
-_ONE_SIDE = float(norm.ppf(0.5 + 0.5 * CONFIDENCE))
 
 
 def seed_scatter(study: RmsStudy, level: int) -> FloatArray:

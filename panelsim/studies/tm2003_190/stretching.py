@@ -99,11 +99,9 @@ class Stretching:
             "Wheeler stretching (9)",
             "Is it Wheeler stretching that brings the time domain near to the frequency domain?",
             "Nonlinear runs in sinusoidal head seas at Fn 0.12 and 0.20, with Wheeler stretching, exp(k(z -"
-            " ζ)), and"
-            " without, exp(k min(z, 0)), step 0.1 s; and a random sea,"
-            f" {SEA.label}, at 20 knots beside a linear run in the same waves. The earlier report's"
-            " kinematics above calm water are not told in this one: what it compared with may not be our"
-            " run without stretching.",
+            f" ζ)), and without, exp(k min(z, 0)), step 0.1 s; and a random sea, {SEA.label}, at 20 knots"
+            " beside a linear run in the same waves. The earlier report's kinematics above calm water are"
+            " not told in this one: what it compared with may not be our run without stretching.",
             _table(self.runs, measured, linear) + f"\n{difference_markdown(study)}",
             (self._statement(store, measured, linear),),
             tuple(self._picture(folder, f, measured, linear) for f in range(len(FROUDE))),
@@ -176,8 +174,7 @@ def statement(wheeler: Measured, none: Measured, linear: ComplexArray) -> Statem
         f"largest difference of the first harmonic, {figures}; Wheeler ≤ {100 * SLIGHT:g} % and none above it"
         " would hold",
         f"What stretching changes above all is the mean heave: at most {mean[WHEELER]} of the wave amplitude"
-        f" with"
-        f" it, {mean[NONE]} without.",
+        f" with it, {mean[NONE]} without.",
     )
 
 
