@@ -258,4 +258,6 @@ def _damaged(path: Path, fault: object) -> PanelsimError:
 
 def _plain(value: Any) -> Any:
     """An attribute as Python has it; numbers come as arrays of one."""
-    return value.item() if isinstance(value, np.generic | np.ndarray) and value.size == 1 else value
+    if not isinstance(value, np.generic | np.ndarray):
+        return value
+    return value.item() if value.size == 1 else value.tolist()
