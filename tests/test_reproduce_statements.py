@@ -186,6 +186,15 @@ def test_exceptions_and_their_cause_are_named() -> None:
     )
 
 
+def test_heights_that_do_not_differ_are_not_told_of() -> None:
+    """1, 4 and 5 m of five heights: not "1 to 5 m"; seas 5 to 9 are from the bow."""
+    changes: list[Change] = [("nonlinear", sea, Dof.PITCH, -0.07) for sea in (0, 3, 4, 7)]
+    study = made_up(("linear", "nonlinear"), 0, *changes, heights=(1.0, 2.0, 3.0, 4.0, 5.0))
+    assert exceptions(study, "nonlinear", everywhere(study), 0.05) == (
+        "beyond 5 %: pitch at 30° (1, 4 to 5 m, up to -7 %), pitch at 150° (3 m, up to -7 %)"
+    )
+
+
 def test_a_run_that_failed_breaks_a_statement() -> None:
     study = steps()
     study.rms[1, HIGH_BOW, 0] = np.nan

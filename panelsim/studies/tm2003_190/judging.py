@@ -1,8 +1,10 @@
 """From differences of RMS to the verdicts on the report's sentences; minor modes count for nothing."""
 
 from dataclasses import dataclass, replace
+from itertools import groupby
 
 import numpy as np
+from numpy.typing import NDArray
 
 from panelsim.conventions import DOF_NAMES
 from panelsim.results.difference_band import difference_band
@@ -119,7 +121,7 @@ def where_it_counts(study: RmsStudy, level: str, threshold: float) -> str:
 
 
 def exceptions(study: RmsStudy, level: str, mask: Mask, threshold: float) -> str:
-    """Motions among these that differ by more than the threshold, with their range of heights.
+    """Motions among these that differ by more than the threshold, and at which heights.
 
     And whether the band of the difference reaches below the threshold in all of these seas.
     """
@@ -130,16 +132,9 @@ def exceptions(study: RmsStudy, level: str, mask: Mask, threshold: float) -> str
     for heading in dict.fromkeys(sea.wave_heading_deg for sea in study.seas):
         for mode, name in enumerate(DOF_NAMES):
             here = from_heading(study, heading)[:, mode] & (size[:, mode] > threshold)
-            heights = [
-                sea.significant_wave_height or np.nan
-                for sea, beyond_it in zip(study.seas, here, strict=True)
-                if beyond_it
-            ]
-            if heights:
+            if here.any():
                 largest = difference_at(study, row, int(np.argmax(np.where(here, size[:, mode], -1.0))), mode)
-                span = (
-                    f"{min(heights):g} m" if len(heights) == 1 else f"{min(heights):g} to {max(heights):g} m"
-                )
+                span = _heights_told(study, heading, here)
                 most = f"up to {per_cent(largest.amount, largest.band)} %"
                 chance = "" if np.any(here & sure[:, mode]) else ", within the band of chance"
                 found.append(f"{name} at {heading:g}° ({span}, {most}{chance})")
@@ -150,6 +145,17 @@ def exceptions(study: RmsStudy, level: str, mask: Mask, threshold: float) -> str
         for told, names in ((f"beyond {100 * threshold:g} %:", found), ("not known:", unknown))
         if names
     )
+
+
+def _heights_told(study: RmsStudy, wave_heading_deg: float, chosen: NDArray[np.bool_]) -> str:
+    """Heights of the chosen (S,) of the seas from a heading; "a to b" for two or more with none left out."""
+    seas = [i for i, sea in enumerate(study.seas) if sea.wave_heading_deg == wave_heading_deg]
+    told = []
+    for here, group in groupby(seas, key=lambda i: bool(chosen[i])):
+        if here:
+            heights = [study.seas[i].significant_wave_height or np.nan for i in group]
+            told.append(f"{heights[0]:g}" if len(heights) == 1 else f"{heights[0]:g} to {heights[-1]:g}")
+    return f"{', '.join(told)} m"
 
 
 def _largest_seen(study: RmsStudy, row: int) -> float:
