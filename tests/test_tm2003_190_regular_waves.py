@@ -21,6 +21,7 @@ from panelsim.studies.tm2003_190.regular_runs import (
     Measured,
     RegularRuns,
     _scale,
+    left_out,
     met_frequency,
     relative_difference,
     worst,
@@ -199,6 +200,24 @@ def test_minor_amplitudes_count_for_nothing() -> None:
     assert difference[0, :, 0] == pytest.approx(np.array([[0.1, np.nan], [-0.2, 0.02]]), nan_ok=True)
     assert worst(difference) == (0, 1, 0, 0)
     assert worst(np.full((2, 2), np.nan)) is None
+
+
+def test_what_is_left_out_is_told(study: RegularWaves) -> None:
+    """A pitch of 4 % of its peak that is off by -65 %: the largest difference told is not that one."""
+    runs = study.runs[SINUSOIDAL]
+    linear = np.ones((2, 3, 2), dtype=complex)
+    assert left_out(runs, _measured(linear[:, :, None]), linear, 1 / 20) == ""
+    linear[0, 0, 1] = 0.04j
+    transfer = linear.copy()
+    transfer[0, 0, 1] *= 0.35
+    told = left_out(runs, _measured(transfer[:, :, None]), linear, 1 / 20)
+    assert told.endswith(
+        "under 5 % of its peak over λ/L in the frequency domain: pitch at Fn 0.12, λ/L 1 (-65 % at H/λ 1/20)."
+    )
+    transfer[0, 0, 1] = np.nan
+    assert left_out(runs, _measured(transfer[:, :, None]), linear, 1 / 20).endswith(
+        "pitch at Fn 0.12, λ/L 1."
+    )
 
 
 def _measured(transfer: ComplexArray) -> Measured:

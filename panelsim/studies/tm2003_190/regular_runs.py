@@ -6,6 +6,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from panelsim.case import Case
 from panelsim.conventions import KNOT, ComplexArray, Dof, FloatArray
@@ -138,11 +139,31 @@ def relative_difference(
     The reference is one for each, or (F, R, 2) for all. Minor is what has less than 5 % of its peak over λ/L:
     beside a cancellation a difference says nothing.
     """
-    size = np.abs(linear)
-    minor = size < MINOR * np.nanmax(size, axis=1, keepdims=True)
+    minor = _minor(linear)
     spread = (slice(None), slice(None), *(None,) * (np.ndim(found) - 3))
     against = np.abs(reference if np.ndim(reference) == np.ndim(found) else reference[spread])
     return np.where(minor[spread], np.nan, np.abs(found) / against - 1.0)
+
+
+def _minor(linear: ComplexArray) -> NDArray[np.bool_]:
+    size = np.abs(linear)
+    return np.asarray(size < MINOR * np.nanmax(size, axis=1, keepdims=True))
+
+
+def left_out(runs: RegularRuns, found: Measured, linear: ComplexArray, steepness: float) -> str:
+    """A sentence on what `relative_difference` leaves out, and how far it is off there; "" for nothing."""
+    amplitude = np.abs(found.transfer[:, :, runs.steepness.index(steepness)])
+    told = []
+    for f, r, mode in np.argwhere(_minor(linear)):
+        off = amplitude[f, r, mode] / np.abs(linear[f, r, mode]) - 1.0
+        known = "" if np.isnan(off) else f" ({100 * off:+.0f} % at H/λ {steepness_told(steepness)})"
+        told.append(f"{MODE_NAMES[mode]} at {runs.told((f, r))}{known}")
+    if not told:
+        return ""
+    return (
+        f" Differences leave out what is under {100 * MINOR:g} % of its peak over λ/L in the frequency"
+        f" domain: {'; '.join(told)}."
+    )
 
 
 def worst(values: FloatArray) -> tuple[int, ...] | None:

@@ -24,6 +24,7 @@ from panelsim.studies.tm2003_190.regular_runs import (
     TRANSIENT,
     Measured,
     RegularRuns,
+    left_out,
     relative_difference,
     steepness_told,
     worst,
@@ -88,7 +89,7 @@ class RegularWaves:
             f" ramp of {RAMP:g} s and {TRANSIENT + 0.5 * MEASURED:g} s more. Between the last two windows"
             f" mean and harmonics change by {unsettled:.1g} of the first harmonic at most. The report's axes"
             " are not told; here they are λ/L, heave over the wave amplitude and pitch over the wave slope"
-            " k a.",
+            " k a." + left_out(self.runs[SINUSOIDAL], measured[SINUSOIDAL], linear, SHOWN),
             self._body(measured, linear) + causes_table(self.runs[SINUSOIDAL], causes),
             (
                 stokes_statement(self.runs[STOKES], measured[STOKES], stokes, linear),

@@ -22,6 +22,7 @@ from panelsim.studies.tm2003_190.regular_runs import (
     MODES,
     Measured,
     RegularRuns,
+    left_out,
     relative_difference,
     worst,
 )
@@ -30,6 +31,7 @@ from panelsim.studies.tm2003_190.regular_waves import (
     LENGTH_RATIO,
     QUICK_LENGTH_RATIO,
     QUICK_STEEPNESS,
+    SHOWN,
     STEEPNESS,
 )
 from panelsim.studies.tm2003_190.rms_plan import Level, RmsPlan
@@ -101,7 +103,8 @@ class Stretching:
             "Nonlinear runs in sinusoidal head seas at Fn 0.12 and 0.20, with Wheeler stretching, exp(k(z -"
             f" ζ)), and without, exp(k min(z, 0)), step 0.1 s; and a random sea, {SEA.label}, at 20 knots"
             " beside a linear run in the same waves. The earlier report's kinematics above calm water are"
-            " not told in this one: what it compared with may not be our run without stretching.",
+            " not told in this one: what it compared with may not be our run without stretching."
+            + left_out(self.runs[WHEELER], measured[WHEELER], linear, SHOWN),
             _table(self.runs, measured, linear) + f"\n{difference_markdown(study)}",
             (self._statement(store, measured, linear),),
             tuple(self._picture(folder, f, measured, linear) for f in range(len(FROUDE))),
