@@ -65,6 +65,24 @@ def test_no_longer_run_has_a_wider_band(wanted: float) -> None:
     assert found == pytest.approx(last, rel=0.01, abs=0.2)
 
 
+@pytest.mark.parametrize(("wanted", "most"), [(1e-3, 1000), (1e-9, 10)])
+def test_a_narrow_band_in_one_wave_is_found_soon(
+    wanted: float, most: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The band is √½ |s(ωT)| of 0.98: crests of half a period fall as 1/(ωT). The day is at a trough."""
+    omega = 2.0 * np.pi / 8.0
+    error = SamplingError(("x",), np.array([omega]), np.ones((1, 1)))
+    counted, asked = [], SamplingError._band_and_sure
+    monkeypatch.setattr(
+        SamplingError, "_band_and_sure", lambda self, length: counted.append(length) or asked(self, length)
+    )
+    found = error.run_length(wanted)[0]
+    crest = min(ONE_SIDE * np.sqrt(0.5) / (omega * wanted), 86400.0)
+    # The search may overlook 1 % of the band, which is 1 % of the length.
+    assert 0.99 * crest - np.pi / omega < found <= crest
+    assert len(counted) < most
+
+
 def test_no_longer_run_in_two_swells_has_a_wider_band() -> None:
     """The same in a spectrum of two narrow bands."""
     error = SamplingError(("x",), np.array([0.5, 0.51, 0.7, 0.71]), np.array([[1.0], [0.0], [1.0]]))

@@ -26,6 +26,8 @@ _EXCESS = 0.01  # of the band: what the search for a run length may overlook
 # The longest steps of that search, ratios of lengths: what the mean takes from a run changes with its length,
 # of a wave that stands still beside the ship as the square, of a band of waves little.
 _STEP_OF_WAVES, _STEP_OF_SPECTRUM = 1.02, 1.1
+# Its shortest step, rad of the quickest wave: between two such lengths no crest of a beat is 0.5 % higher.
+_STEP_OF_CREST = 0.1
 _COARSE = 0.1  # step of the logarithm of the length in what bounds it from above
 # Of the standard error of a variance, for half the width of the band of its root.
 _ONE_SIDE = 0.5 * float(norm.ppf(0.5 + 0.5 * CONFIDENCE))
@@ -95,11 +97,13 @@ class SamplingError:
         Beats of waves rise and fall with the length T, but T times the scatter of a Gaussian process only
         rises: Var v = (4/T²) ∫ (T - τ) R² dτ, R its autocorrelation. Amplitudes that are sure take Σ m² from
         that. So where the band is narrower than wanted it stays so until T is less by a known ratio: the
-        search goes down from the longest run by these steps, and passes over no crest of a beat.
+        search goes down from the longest run by these steps, and passes over no crest of a beat. Where the
+        ratio is next to 1, as for a narrow band in few waves, it goes by a share of the quickest beat.
         """
         wanted = require_positive("band", band, "")
         last = require_positive("longest run", longest, "s")
         first, step = min(SHORTEST, 0.1 * last), _STEP_OF_SPECTRUM if self.spectral else _STEP_OF_WAVES
+        crest = 0.0 if self.spectral else _STEP_OF_CREST / max(float(np.abs(self.frequency).max()), 1e-9)
         length, (bands, sure) = last, self._band_and_sure(last)
         found = np.where(np.isnan(bands), np.nan, np.where(bands > wanted, np.inf, first))
         searched = bands <= wanted
@@ -109,7 +113,7 @@ class SamplingError:
         while searched.any() and length > first:
             most = ((1.0 + _EXCESS) * wanted / _ONE_SIDE) ** 2 + sure
             ratio = float(np.min((most / ((bands / _ONE_SIDE) ** 2 + sure))[searched]))
-            shorter = max(length / min(ratio, step), first)
+            shorter = max(min(length / min(ratio, step), length - crest), first)
             before, (bands, sure) = bands, self._band_and_sure(shorter)
             above = searched & (bands > wanted)
             # Between two lengths so close the bands are about even.
