@@ -76,6 +76,8 @@ def test_the_page_links_to_what_is_there(made: tuple[Reproduction, Path]) -> Non
     assert f"(#{anchor('Linear against nonlinear (8.3)')})" in text
     assert "## Linear against nonlinear (8.3)" in text
     assert "12 runs" in text
+    # The statement on CPU time is no sentence of the report, nor has it a section of it.
+    assert "one without is our own." in text
     assert "## Runs that failed" not in text
 
 

@@ -137,6 +137,9 @@ def test_the_section_of_drift(base: Case, tmp_path: Path) -> None:
     assert force == pytest.approx([-1e4, 1e4])
     assert [statement.holds for statement in section.statements] == [True, True, True]
     assert not section.failures
+    # The report speaks of nonlinear terms alone, and names what stands behind the linear drift at 30° too.
+    assert "radiation damping goes to zero" in section.setup
+    assert "That the linear model has none" in section.setup
     assert "| no yaw spring | 30 | nonlinear | 660 | -660 | -0 | diverged: broached |" in section.body
     assert "| free | 30 | nonlinear | 660, 660 | -660, -660 | -0, -0 | finished |" in section.body
     assert "free,30.0,nonlinear,2,-660" in section.tables["drift.csv"]

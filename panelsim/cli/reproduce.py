@@ -88,7 +88,7 @@ def _show(sections: Sequence["Section"]) -> None:
     """The verdicts, and how many runs failed."""
     from panelsim.studies.tm2003_190.page import verdict
 
-    table = Table("the report says", "here", "figure", box=None, padding=(0, 2, 0, 0))
+    table = Table("statement", "here", "figure", box=None, padding=(0, 2, 0, 0))
     for section in sections:
         for statement in section.statements:
             table.add_row(statement.says, verdict(statement), statement.figures)

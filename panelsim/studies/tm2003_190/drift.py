@@ -36,6 +36,11 @@ SEEDS, QUICK_SEEDS = (1, 2, 3, 4), (1, 2)
 Key = tuple[str, float, str]  # kind of run, heading [deg], model
 # Components between those of the report: none of them stands still beside the ship.
 BETWEEN = {"start": 0.25, "stop": 1.95, "step": 0.1}
+OUR_READING = (
+    "The report has excessive motions with nonlinear terms, by drift forces, for want of springs and as"
+    " radiation damping goes to zero with the frequency of encounter. That the linear model has none, and"
+    " that the forces are of second order, is our reading of it."
+)
 UP_TO_1 = {"start": 0.2, "stop": 1.0, "step": 0.1}
 
 
@@ -122,7 +127,7 @@ class Drift:
             f"20 knots, H_s {HEIGHT:g} m, T_p {PERIOD:g} s, ten minutes after the ramp; roll damping and yaw"
             " spring as in the report, nothing in surge and sway. Seeds"
             f" {', '.join(map(str, self.seeds))}, the same phases from both headings and in both models;"
-            " without the yaw spring the first alone. A run ends where yaw passes 60°.",
+            " without the yaw spring the first alone. A run ends where yaw passes 60°. " + OUR_READING,
             _table(runs) + _force_table(force),
             (*(self._drift_statement(heading, runs) for heading in HEADINGS_DEG), force_statement(force)),
             ((picture.name, "Distance from where the ship would be, a line a seed; mean force over H_s."),),

@@ -18,7 +18,8 @@ _IDENTICAL, _SLIGHT, _NOTICEABLE, _SIGNIFICANT, _MINOR = (
     f"{100 * share:g} %" for share in (IDENTICAL, SLIGHT, NOTICEABLE, SIGNIFICANT, MINOR)
 )
 _THRESHOLDS = (
-    "The words mean a difference of the RMS of a motion: *practically* or *effectively identical* ≤"
+    "Sentences with a section in brackets are the report's, in short; one without is our own. The words mean"
+    " a difference of the RMS of a motion: *practically* or *effectively identical* ≤"
     f" {_IDENTICAL}, *slightly different* {_IDENTICAL} to {_SLIGHT}, *little influence* ≤ {_SLIGHT},"
     f" *noticeable* > {_NOTICEABLE}, *significant* > {_SIGNIFICANT}. Motions under {_MINOR} of the largest"
     " rotation or translation of the reference in the same sea, all realizations together, are left out. One"
@@ -67,7 +68,7 @@ def _verdicts(sections: Sequence[Section]) -> str:
         for section in sections
         for statement in section.statements
     ]
-    return "| the report says | here | figure | section |\n| --- | --- | --- | --- |\n" + "".join(rows)
+    return "| statement | here | figure | section |\n| --- | --- | --- | --- |\n" + "".join(rows)
 
 
 def _link(section: Section) -> str:
