@@ -235,7 +235,8 @@ def test_verdicts_follow_the_amplitudes(study: RegularWaves, factor: float, hold
     found = domains_statement(runs, transfer, linear)
     assert found.holds is holds
     assert f"{100 * (factor - 1):+.0f} % in heave (Fn 0.2, λ/L 1.4" in found.figures
-    assert ("from λ/L 2 on" in found.remark) is not holds
+    # Of steeper waves it says nothing: in them the ship may be further off.
+    assert ("At H/λ 1/20 within 5 % from λ/L 2 on." in found.remark) is not holds
     both = transfer.copy()
     both[0, 0, 1] *= 1.06
     assert "from λ/L 2 on" in domains_statement(runs, both, linear).remark or holds

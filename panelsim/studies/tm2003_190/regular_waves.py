@@ -213,7 +213,7 @@ def domains_statement(runs: RegularRuns, transfer: ComplexArray, linear: Complex
         f"{100 * value:+.2g} % in {MODE_NAMES[at[-1]]} ({runs.told(at[:-1])}, H/λ 1/20),"
         f" {'' if holds else 'not '}≤ {100 * SLIGHT:g} %; of the peak {100 * of_peak[peak]:+.2g} % in"
         f" {MODE_NAMES[peak[-1]]} ({runs.told(peak[:-1])})",
-        f"Within {100 * SLIGHT:g} % from λ/L {near[0]:g} on." if far and near else "",
+        f"At H/λ 1/20 within {100 * SLIGHT:g} % from λ/L {near[0]:g} on." if far and near else "",
     )
 
 
