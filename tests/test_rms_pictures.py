@@ -64,7 +64,21 @@ def test_differences_of_many_per_cent_are_drawn_by_their_logarithm(
     surge, heave = drawn[0].axes[3], drawn[0].axes[5]
     assert (surge.get_yscale(), heave.get_yscale()) == ("linear", "symlog")
     assert heave.get_ylim()[1] > 56.0 and heave.get_ylim()[0] == -heave.get_ylim()[1]
-    assert [label.get_text() for label in heave.get_yticklabels()] == ["-10", "-1", "0", "1", "10"]
+    told = [label.get_text() for label in heave.get_yticklabels()]
+    assert told == ["-100", "", "-1", "0", "1", "", "100"]
+
+
+@pytest.mark.parametrize("factor", [1.0, 1.5, 1.8, 7.0])
+def test_no_marker_is_cut_off(factor: float, tmp_path: Path, drawn: list[Figure]) -> None:
+    """Differences of 4, 56, 87 and 630 %: the largest ones have their whole marker inside of the panel."""
+    wide = study()
+    wide.rms[0, :, :, 2] *= factor
+    rms_over_height(wide, 150.0, tmp_path / "rms.png")
+    axis = drawn[0].axes[5]
+    line = axis.get_lines()[0]
+    radius = 0.5 * (line.get_markersize() + line.get_markeredgewidth()) * drawn[0].dpi / 72.0
+    height = float(np.asarray(line.get_ydata())[0])
+    assert axis.transData.transform((2.0, height))[1] + radius < axis.transAxes.transform((0.0, 1.0))[1]
 
 
 def test_the_band_is_drawn_where_it_is_known(tmp_path: Path, drawn: list[Figure]) -> None:

@@ -12,7 +12,8 @@ from scipy.stats import t as student
 
 from panelsim.conventions import CONFIDENCE, FloatArray
 
-# A mode with less than this of the largest rotation or translation of the same run counts for nothing.
+# A mode with less than this of the largest rotation or translation of the reference in the same sea, of all
+# realizations together, counts for nothing.
 MINOR = 0.05
 
 

@@ -17,6 +17,7 @@ from panelsim.results.verdicts import IDENTICAL
 from panelsim.view.plots import COLORS, INK, plain, save
 
 WIDE = 20.0  # times one per cent: from here on differences are drawn by their logarithm
+_ROOM = 0.2  # of half of that axis, beyond the largest difference
 _MARGINS = {"left": 0.06, "right": 0.99, "top": 0.925, "bottom": 0.095, "hspace": 0.28, "wspace": 0.17}
 _MARKERS = "osD^vP*X"
 
@@ -162,8 +163,9 @@ def _finish_twin(twin: Axes, why_empty: str) -> None:
     """
     twin.axhline(0.0, color=INK, linewidth=0.8)
     one = 100.0 * IDENTICAL
-    reach = 1.15 * max(one, float(np.max(np.abs(twin.dataLim.intervaly), initial=0.0)))
+    reach = 1.2 * max(one, float(np.max(np.abs(twin.dataLim.intervaly), initial=0.0)))
     if reach > WIDE * one:
+        reach *= (10.0 * reach / one) ** _ROOM  # a share of the axis, or half of a marker is cut off
         decades = 10.0 ** np.arange(np.ceil(np.log10(reach)))
         twin.set_yscale("symlog", linthresh=one)
         ticks = np.concatenate([-decades[::-1], [0.0], decades])
@@ -172,7 +174,6 @@ def _finish_twin(twin: Axes, why_empty: str) -> None:
             [f"{tick:g}" if tick in (0.0, one, -one) or abs(tick) == decades[-1] else "" for tick in ticks],
         )
         twin.set_yticks([], minor=True)
-        reach *= 1.5
     twin.set_ylim(-reach, reach)
     _say(twin, why_empty)
 

@@ -69,12 +69,12 @@ ABOUT_FREQUENCIES = (
 )
 ABOUT_PARTS = (
     "The nonlinear pressure load of a run, less its linear part, is taken apart into what waves do to a ship"
-    " at rest, what her motions do in calm water, and products of both; the linear ship answers each. First"
-    " the RMS of the answer over that of the difference between the models, then its share in the variance"
-    " of that (a covariance, below 0 where loads act against each other). Where answers are larger than the"
-    " difference they cancel, and a share is no cause. The last row is the RMS of what all of them miss."
-    " All loads are of incident waves and buoyancy: neither here nor in the report have diffraction and"
-    " radiation nonlinear loads, which would act too."
+    " at rest, what her motions do in calm water, and products of both; the linear ship answers each. Of"
+    " the first realization; first the RMS of the answer over that of the difference between the models, then"
+    " its share in the variance of that (a covariance, below 0 where loads act against each other). Where"
+    " answers are larger than the difference they cancel, and a share is no cause. The last row is the RMS"
+    " of what all of them miss. All loads are of incident waves and buoyancy: neither here nor in the report"
+    " have diffraction and radiation nonlinear loads, which would act too."
 )
 ABOUT_HELD = (
     "The test of it: heave and pitch held by stiff springs in both models, and how much of the variance of"
