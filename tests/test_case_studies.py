@@ -343,6 +343,14 @@ def test_a_study_that_was_stopped_goes_on_without_force(tmp_path: Path) -> None:
     (folder / "runs").mkdir(parents=True)
     (folder / "runs" / "one.nc").touch()
     refuse_other_folder(folder, force=False)
+    # What comes before the page, whole or half-written by a process that was killed.
+    for name in ("rms.csv", "difference-vertex-centre.png", "study.rrd", ".study.812.rrd", ".panelsim-812"):
+        (folder / name).touch()
+    refuse_other_folder(folder, force=False)
+    (folder / "thesis.csv").touch()
+    with pytest.raises(PanelsimError, match="not empty"):
+        refuse_other_folder(folder, force=False)
+    (folder / "thesis.csv").unlink()
     (folder / "report.md").touch()
     refuse_other_folder(folder, force=True)
     with pytest.raises(PanelsimError, match="not empty"):

@@ -53,7 +53,8 @@ class StoredRun:
     def fault(self) -> str | None:
         """What is wrong with the run as it was read; None where it is whole."""
         rows = len(self.time)
-        if rows < 2 or self.displacement.shape != (rows, 6) or self.wave_elevation.shape != (rows,):
+        # A run that ends in its first step has one row.
+        if rows < 1 or self.displacement.shape != (rows, 6) or self.wave_elevation.shape != (rows,):
             return "motions of another length than the time"
         # A diverged run may end in what is no number.
         motions = self.displacement[self.after_ramp]
