@@ -7,6 +7,7 @@ import socket
 from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import replace
+from importlib.metadata import version
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -315,6 +316,18 @@ def test_damaged_timings_of_the_kernel_are_refused(tmp_path: Path, content: str)
     (tmp_path / "kernel_speed.json").write_text(content)
     with pytest.raises(PanelsimError, match="damaged"):
         study.is_measured(RunStore(tmp_path))
+
+
+@pytest.mark.parametrize("methods", [None, {}, "words", {"NumPy": 1.0}, {"NumPy": {}}])
+def test_damaged_figures_of_the_kernel_are_refused(tmp_path: Path, methods: object) -> None:
+    study = KernelSpeed(base_case(), True)
+    told = {"panelsim_version": version("panelsim"), "rounds": study.rounds, "panels": 1, "components": 1}
+    path = tmp_path / "kernel_speed.json"
+    path.write_text(json.dumps(told | {"machine": "mine", "methods": methods}))
+    with pytest.raises(PanelsimError, match="damaged"):
+        study.section(RunStore(tmp_path), tmp_path)
+    path.write_text(json.dumps(told | {"rounds": "many", "methods": methods}))
+    assert not study.is_measured(RunStore(tmp_path))
 
 
 def test_a_page_that_is_there_is_not_overwritten(
