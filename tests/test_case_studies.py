@@ -269,6 +269,7 @@ def test_timings_of_another_case_or_version_are_refused(tmp_path: Path) -> None:
         with pytest.raises(PanelsimError, match="another case or version"):
             store.timings(case)
     damages: list[object] = [{}, [1], told | {"rounds": [{"x": 1}]}, told | {"rounds": "ab"}]
+    damages.append(told | {"rounds": [told["rounds"][0] | {"cpu_seconds": "a minute"}]})
     for content in ["", "{", *map(json.dumps, damages)]:
         store.path(case).write_text(content)
         with pytest.raises(PanelsimError, match=r"damaged(.|\n)*remove the file"):
@@ -337,12 +338,32 @@ def test_converge_leaves_a_page_that_is_the_same_when_made_again(
     assert lost.is_file() and {file: file.stat().st_mtime_ns for file in others} == times
 
 
+def test_force_keeps_a_picture_where_there_was_no_page(
+    panelsim: Called, tmp_path: Path, recorded: list[dict[str, object]]
+) -> None:
+    (tmp_path / "short.toml").write_text(CASE)
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "difference-rk4.png").write_text("the user's")
+    command = ["converge", "time-step", "short.toml", "--steps", "0.4", "--workers", 1, "--out", "mine"]
+    assert panelsim(*command)[0] == 2
+    assert panelsim(*command, "--force")[0] == 0
+    assert (tmp_path / "mine" / "difference-rk4.png").read_text() == "the user's"
+
+
 def test_a_study_that_was_stopped_goes_on_without_force(tmp_path: Path) -> None:
     folder = tmp_path / "study"
     refuse_other_folder(folder, force=False)
     (folder / "runs").mkdir(parents=True)
     (folder / "runs" / "one.nc").touch()
     refuse_other_folder(folder, force=False)
+    # What comes before the page, whole or half-written by a process that was killed.
+    for name in ("rms.csv", "difference-vertex-centre.png", "study.rrd", ".study.812.rrd", ".panelsim-812"):
+        (folder / name).touch()
+    refuse_other_folder(folder, force=False)
+    (folder / "thesis.csv").touch()
+    with pytest.raises(PanelsimError, match="not empty"):
+        refuse_other_folder(folder, force=False)
+    (folder / "thesis.csv").unlink()
     (folder / "report.md").touch()
     refuse_other_folder(folder, force=True)
     with pytest.raises(PanelsimError, match="not empty"):

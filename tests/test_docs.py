@@ -1,5 +1,6 @@
 """The code on the pages runs as it stands there, and every name on them is there."""
 
+import importlib
 import re
 from pathlib import Path
 
@@ -52,6 +53,15 @@ def test_the_pages_on_runs_keep_their_word(tmp_path: Path, monkeypatch: pytest.M
 def test_public_names_of_a_page_are_there(page: Path) -> None:
     for name in set(re.findall(r"\bps\.([A-Za-z_]+)", page.read_text(encoding="utf-8"))):
         assert name in ps.__all__ and getattr(ps, name) is not None, name
+
+
+def test_the_names_of_studies_are_where_the_page_says() -> None:
+    page = (DOCS / "studies.md").read_text(encoding="utf-8")
+    (said,) = re.findall(r"In Python, in `panelsim\.studies`: ([^.]+\..*?)\.\n\n", page, re.DOTALL)
+    names = [name.rpartition(".") for name in re.findall(r"`([^`]+)`", said)]
+    assert len(names) == 5
+    for module, _, name in names:
+        assert hasattr(importlib.import_module(f"panelsim.studies.{module}"), name), name
 
 
 def test_every_public_name_can_be_imported() -> None:

@@ -1,10 +1,13 @@
 """A reproduction on disk: a tiny one is run, stopped, gone on with, made again from its runs."""
 
 import json
+import os
+import shutil
 import socket
 from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import replace
+from importlib.metadata import version
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -140,6 +143,61 @@ def test_a_run_that_failed_is_told_and_breaks_its_statement(
     assert "a run did not finish" in steep.figures
 
 
+def test_a_run_that_was_lost_is_told_on_the_page_and_tried_again(
+    made: tuple[Reproduction, Path], undrawn: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shutil.copytree(made[0].runs, tmp_path / "runs")
+    study = tiny(tmp_path / "runs")
+    lost = study.studies[0].cases[7]
+    study.store.path(lost).unlink()
+
+    def exhausted(*_: object) -> None:
+        raise MemoryError("none left")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("panelsim.studies.groups.case_history", exhausted)
+        study.make_runs(workers=1)
+    study.make_page(tmp_path / "page")
+    assert "MemoryError: none left" in (tmp_path / "page/README.md").read_text()
+    assert study.missing == 1
+    study.make_runs(workers=1)
+    study.make_page(tmp_path / "page")
+    assert "MemoryError" not in (tmp_path / "page/README.md").read_text()
+
+
+def test_the_time_of_a_process_that_is_killed_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    study = tiny(tmp_path / "runs")
+    noted: list[float] = []
+
+    def watched(*_: object, progress: Callable[[float, float], None], **__: object) -> None:
+        for done in (1, 2):
+            progress(done, 12)
+            noted.append(json.loads((tmp_path / "runs/study.json").read_text())["wall_seconds"])
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(reproduce, "compute_runs", watched)
+    with pytest.raises(KeyboardInterrupt):
+        study.make_runs(workers=1)
+    assert 0.0 < noted[0] < noted[1]
+
+
+def test_a_page_is_made_where_nothing_may_be_written_beside_it(
+    made: tuple[Reproduction, Path], undrawn: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    beside = tmp_path / "mount"
+    (beside / "page").mkdir(parents=True)
+    make = os.mkdir
+
+    def mkdir(path: str | Path, *given: object, **named: object) -> None:
+        if Path(path).parent == beside:
+            raise PermissionError(13, "Permission denied", str(path))
+        make(path, *given, **named)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(os, "mkdir", mkdir)
+    made[0].make_page(beside / "page")
+    assert [path.name for path in beside.iterdir()] == ["page"]
+
+
 def test_an_older_page_is_replaced_and_other_files_stay(
     made: tuple[Reproduction, Path], undrawn: None, tmp_path: Path
 ) -> None:
@@ -182,8 +240,10 @@ def test_a_folder_of_something_else_is_not_taken_for_runs(tmp_path: Path) -> Non
         tiny(tmp_path).make_runs(workers=1)
 
 
-def test_a_damaged_note_is_refused(tmp_path: Path) -> None:
-    (tmp_path / "study.json").write_text("{")
+@pytest.mark.parametrize("damage", ["{", "[1]", '{"study": 1}', "words"])
+def test_a_damaged_note_is_refused(tmp_path: Path, made: tuple[Reproduction, Path], damage: str) -> None:
+    note = json.loads((made[0].runs / "study.json").read_text()) | {"wall_seconds": "an hour"}
+    (tmp_path / "study.json").write_text(json.dumps(note) if damage == "words" else damage)
     with pytest.raises(PanelsimError, match="damaged"):
         tiny(tmp_path).make_runs(workers=1)
 
@@ -258,6 +318,18 @@ def test_damaged_timings_of_the_kernel_are_refused(tmp_path: Path, content: str)
     (tmp_path / "kernel_speed.json").write_text(content)
     with pytest.raises(PanelsimError, match="damaged"):
         study.is_measured(RunStore(tmp_path))
+
+
+@pytest.mark.parametrize("methods", [None, {}, "words", {"NumPy": 1.0}, {"NumPy": {}}])
+def test_damaged_figures_of_the_kernel_are_refused(tmp_path: Path, methods: object) -> None:
+    study = KernelSpeed(base_case(), True)
+    told = {"panelsim_version": version("panelsim"), "rounds": study.rounds, "panels": 1, "components": 1}
+    path = tmp_path / "kernel_speed.json"
+    path.write_text(json.dumps(told | {"machine": "mine", "methods": methods}))
+    with pytest.raises(PanelsimError, match="damaged"):
+        study.section(RunStore(tmp_path), tmp_path)
+    path.write_text(json.dumps(told | {"rounds": "many", "methods": methods}))
+    assert not study.is_measured(RunStore(tmp_path))
 
 
 def test_a_page_that_is_there_is_not_overwritten(

@@ -218,6 +218,27 @@ def test_a_diverged_run_may_end_in_what_is_no_number(store: RunStore, case: Case
     assert store.load(case).early_end == "diverged: heave"
 
 
+@pytest.mark.parametrize("rms", [np.full(6, np.nan), np.zeros(5), "words"])
+def test_a_finished_run_whose_rms_is_no_figure_is_refused(
+    store: RunStore, case: Case, make_history: Any, rms: object
+) -> None:
+    keep(store, case, make_history())
+    with h5py.File(store.path(case), "a") as file:
+        file.attrs["rms"] = rms
+    with pytest.raises(PanelsimError, match=r"damaged(.|\n)*RMS"):
+        store.rms(case)
+
+
+def test_a_run_that_ended_in_its_first_step_is_whole(store: RunStore, case: Case, make_history: Any) -> None:
+    keep(store, case, make_history(outcome="capsized", outcome_detail="roll"))
+    with h5py.File(store.path(case), "a") as file:
+        for name in ("time", "displacement", "wave_elevation"):
+            values = file[name][:1]
+            del file[name]
+            file[name] = values
+    assert store.load(case).early_end == "capsized: roll"
+
+
 @pytest.mark.parametrize("content", [b"", b"[]", b"[1]", b"\xff\xfe", b'"text"'])
 def test_a_damaged_note_of_a_failure_is_refused(store: RunStore, case: Case, content: bytes) -> None:
     store.save_failure(case, "no luck")

@@ -49,6 +49,9 @@ def test_texts(text: str, values: tuple[object, ...] | None) -> None:
         ("run.speed_knots=0:30:0", r"must be more than 0"),
         ("run.speed_knots=5:5:1", r"single value"),
         ("run.speed_knots=0:30:0.001", r"too many(.|\n)*30000(.|\n)*1000"),
+        ("run.speed_knots=0:1:5e-324", r"too many(.|\n)*inf"),
+        ("run.speed_knots=-1e308:1e308:1e307", "no range"),
+        (f"seaway.seed=0:{10**400}:1", "no range"),
     ],
 )
 def test_texts_refused(text: str, words: str) -> None:

@@ -12,6 +12,7 @@ Value = float | int | str | bool
 _EXAMPLE = "for example seaway.wave_heading_deg=0:180:15, or run.model=linear,nonlinear"
 MOST_VALUES = 1000  # a list of more is a mistake in the step
 _ROUNDING = 1e-6  # of a step
+_LARGEST = 1e100  # no key of a case is larger, and differences of such numbers are still numbers
 _METRES = (
     "draft trim_by_stern center_of_gravity_x center_of_gravity_height gyradius_roll gyradius_pitch"
     " gyradius_yaw significant_wave_height wave_height wave_length fetch"
@@ -124,10 +125,11 @@ def _range(key: str, text: str) -> list[Value]:
     """Numbers from "start:stop:step"; whole where all three are."""
     parts = [_value(part.strip()) for part in text.split(":")]
     numbers = [part for part in parts if isinstance(part, float | int) and not isinstance(part, bool)]
-    if len(parts) != 3 or len(numbers) != 3 or not all(math.isfinite(number) for number in numbers):
+    if len(parts) != 3 or len(numbers) != 3 or not all(abs(number) <= _LARGEST for number in numbers):
         raise PanelsimError(f"This is no range of {key}", got=text, allowed="start:stop:step, three numbers")
     start, stop, step = numbers
     count = (stop - start) / step if step else math.nan
+    _require_few(key, count)  # a count that is infinite has no round number
     if not (count > 0.0 and abs(count - round(count)) <= _ROUNDING):
         raise PanelsimError(
             f"The step of {key} does not lead from start to stop",
@@ -135,7 +137,6 @@ def _range(key: str, text: str) -> list[Value]:
             allowed="start:stop:step with both ends included, for example 0:180:15",
             remedy=_what_fits(start, stop, step),
         )
-    _require_few(key, count)
     # 0.1 + 2 × 0.1 is to be 0.3, as it is written.
     return [
         start + i * step if isinstance(start + step, int) else float(f"{start + i * step:.12g}")

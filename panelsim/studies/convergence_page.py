@@ -32,8 +32,9 @@ def write_convergence(study: Convergence, store: RunStore, folder: Path) -> tupl
     """
     found = {scheme: study.study(store, scheme) for scheme in study.schemes}
     pictures = {scheme: _picture_name(scheme) for scheme in study.schemes}
-    for scheme in (*LONGEST_STEP, *RULES):  # of others, whose page this one takes the place of
-        (folder / _picture_name(scheme)).unlink(missing_ok=True)
+    if (folder / PAGE).is_file():  # of other schemes, whose page this one takes the place of
+        for scheme in (*LONGEST_STEP, *RULES):
+            (folder / _picture_name(scheme)).unlink(missing_ok=True)
     for scheme, rms in found.items():
         if rms_over_levels(rms, folder / pictures[scheme]) is None:
             del pictures[scheme]

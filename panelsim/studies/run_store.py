@@ -53,7 +53,8 @@ class StoredRun:
     def fault(self) -> str | None:
         """What is wrong with the run as it was read; None where it is whole."""
         rows = len(self.time)
-        if rows < 2 or self.displacement.shape != (rows, 6) or self.wave_elevation.shape != (rows,):
+        # A run that ends in its first step has one row.
+        if rows < 1 or self.displacement.shape != (rows, 6) or self.wave_elevation.shape != (rows,):
             return "motions of another length than the time"
         # A diverged run may end in what is no number.
         motions = self.displacement[self.after_ramp]
@@ -171,6 +172,7 @@ class RunStore:
                 _require_told(path, attrs, _OF_RUN)
                 _require_same(path, attrs, case)
                 _require_told(path, attrs, NEEDED)
+                _require_rms(path, attrs)
                 self.told[run_key(case)] = {name: attrs[name] for name in NEEDED}
                 yield file, attrs
         except (OSError, KeyError, RuntimeError) as error:
@@ -250,6 +252,17 @@ def _require_told(path: Path, attrs: Mapping[str, Any], names: Sequence[str]) ->
     missing = [name for name in names if name not in attrs]
     if missing:
         raise _damaged(path, f"without {', '.join(missing)}")
+
+
+def _require_rms(path: Path, attrs: Mapping[str, Any]) -> None:
+    """Raise PanelsimError where the RMS are not six figures; a run that ended early has none."""
+    rms = np.asarray(attrs["rms"])
+    if (
+        rms.shape != (6,)
+        or rms.dtype.kind != "f"
+        or (attrs["outcome"] == "finished" and not np.isfinite(rms).all())
+    ):
+        raise _damaged(path, "RMS that are no six figures")
 
 
 def _damaged(path: Path, fault: object) -> PanelsimError:

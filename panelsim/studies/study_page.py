@@ -1,5 +1,6 @@
 """What the page and the folder of every study of a case have: its set-up, its failures, its runs."""
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
@@ -12,14 +13,21 @@ from panelsim.studies.output_folder import refuse_occupied_folder
 PAGE = "report.md"
 RUNS = "runs"
 RECORDING = "study.rrd"
+# Also as they are called while they are written: a process that is killed leaves one.
+_BEFORE_PAGE = re.compile(
+    r"(rms|cost)\.csv|(difference-[a-z0-9-]+|models|cost)\.png|study\.rrd"
+    r"|\.(rms|cost|difference-[a-z0-9-]+|models|study|report)\.\d+\.(csv|png|rrd|md)|\.panelsim-\d+"
+)
 
 
 def refuse_other_folder(folder: Path, *, force: bool) -> None:
     """Raise PanelsimError for a folder with files in it, unless `force`; a study that was stopped goes on.
 
-    Until its page is written it has only its runs there.
+    Until its page is written, which comes last, it has only its runs there and other files of the page.
     """
-    stopped = folder.is_dir() and all(entry.name == RUNS for entry in folder.iterdir())
+    stopped = (folder / RUNS).is_dir() and all(
+        entry.name == RUNS or _BEFORE_PAGE.fullmatch(entry.name) for entry in folder.iterdir()
+    )
     refuse_occupied_folder(folder, force=force or stopped)
 
 

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, astuple, dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -55,7 +55,8 @@ class TimingStore:
         """
         rounds = self._told(case).get("rounds", [])
         try:
-            return tuple(Timing(**round_) for round_ in rounds)
+            found = [Timing(**round_) for round_ in rounds]
+            return tuple(Timing(*(_number(value) for value in astuple(timing))) for timing in found)
         except TypeError as error:
             raise PanelsimError(
                 "The file of stored timings is damaged", got=self.path(case), remedy=_AGAIN
@@ -98,3 +99,9 @@ class TimingStore:
                 remedy="choose another folder, or remove those that are in it",
             )
         return told
+
+
+def _number(value: Any) -> Any:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise TypeError(f"{value!r} is no number")
+    return value

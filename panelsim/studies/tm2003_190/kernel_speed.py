@@ -25,6 +25,7 @@ from panelsim.studies.tm2003_190.look_up import LookUpSurroundings
 from panelsim.studies.tm2003_190.section import Section, Statement
 
 FILE = "kernel_speed.json"
+_WHAT, _AGAIN = "The file of the kernel's timings", "remove it, and measure again"
 NUMPY, SINES, TABLES = "NumPy", "NumPy, sines from a table", "NumPy, sines and exponentials from tables"
 DIRECT, GRID = "kernel, direct sum", "kernel, grid"
 POSES, ROUNDS, QUICK_ROUNDS = 8, 11, 3
@@ -58,9 +59,10 @@ class KernelSpeed:
         path = store.folder / FILE
         if not path.is_file():
             return False
-        found = read_json_table(path, "The file of the kernel's timings", "remove it, and measure again")
+        found = read_json_table(path, _WHAT, _AGAIN)
         of_now = found.get("panelsim_version") == version("panelsim")
-        return of_now and "methods" in found and found.get("rounds", 0) >= self.rounds
+        rounds = found.get("rounds")
+        return of_now and "methods" in found and isinstance(rounds, int) and rounds >= self.rounds
 
     def measure(self, store: RunStore) -> None:
         """Time all methods and keep the figures as JSON in the folder of the runs."""
@@ -86,7 +88,12 @@ class KernelSpeed:
                 remedy="run the study, it goes on where it was",
             )
         told = json.loads((store.folder / FILE).read_text(encoding="utf-8"))
-        found = told["methods"]
+        try:
+            return self._section(told, told["methods"])
+        except (KeyError, TypeError, AttributeError, ZeroDivisionError) as error:
+            raise PanelsimError(f"{_WHAT} is damaged", got=store.folder / FILE, remedy=_AGAIN) from error
+
+    def _section(self, told: dict[str, Any], found: dict[str, dict[str, float]]) -> Section:
         return Section(
             self.key,
             "Look-up tables and the pressure kernel (7)",

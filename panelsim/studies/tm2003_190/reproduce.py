@@ -4,6 +4,7 @@ import json
 import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, is_dataclass, replace
+from functools import cached_property
 from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -46,8 +47,9 @@ class Reproduction:
     extent: str
     runs: Path
 
-    @property
+    @cached_property
     def store(self) -> RunStore:
+        """The runs; one store, for it alone knows which runs were lost by no fault of their case, and why."""
         return RunStore(self.runs)
 
     @property
@@ -87,18 +89,19 @@ class Reproduction:
         cases, keys = self._missing_cases()
         if cases:
             require_cluster(scheduler)
-        with timed(self.runs, note):
-            compute_runs(
-                cases,
-                self.store,
-                workers=workers,
-                scheduler=scheduler,
-                progress=_named(keys, progress) if progress is not None else None,
-            )
+        with timed(self.runs, note) as note_time:
+            # The study too; runs are made about in their order.
+            def told(done: float, total: float) -> None:
+                note_time()
+                if progress is not None:
+                    progress(keys[min(int(done), len(keys) - 1)], done, total)
+
+            compute_runs(cases, self.store, workers=workers, scheduler=scheduler, progress=told)
             for study in self._unmeasured:
                 if progress is not None:
                     progress(study.key, 0, 1)
                 study.measure(self.store)
+                note_time()
                 if progress is not None:
                     progress(study.key, 1, 1)
 
@@ -121,8 +124,9 @@ class Reproduction:
         `workers`, as many as there are cores if None.
         """
         note = open_runs_folder(self.runs, NAME, self.extent)
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        with TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as beside:
+        self.store.told.clear()  # runs may be others than when they were last read
+        # Not beside the folder, where one who may write into it may not.
+        with TemporaryDirectory(prefix="panelsim-") as beside:
             made = self._written(Path(beside), _processes(workers, len(self.studies)), progress)
             sections = [section for section, _ in made]
             spent = {key: seconds for _, of_runs in made for key, seconds in of_runs.items()}
@@ -222,15 +226,6 @@ def _write_section(study: Study, store: RunStore, folder: Path) -> tuple[Section
             series={name: store.load(case) for name, case in known.items()},
         )
     return section, {key: float(told["cpu_seconds"]) for key, told in store.told.items()}
-
-
-def _named(keys: Sequence[str], progress: Progress) -> Callable[[float, float], None]:
-    """A callback of `compute_runs` that tells the study too; runs are made about in their order."""
-
-    def told(done: float, total: float) -> None:
-        progress(keys[min(int(done), len(keys) - 1)], done, total)
-
-    return told
 
 
 def _seeds(scope: Scope) -> str:

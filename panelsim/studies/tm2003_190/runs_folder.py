@@ -4,7 +4,7 @@ import json
 import os
 import platform
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from importlib.metadata import version
@@ -42,6 +42,7 @@ def open_runs_folder(folder: Path, study: str, extent: str) -> RunsNote:
         return begun
     try:
         note = RunsNote(**json.loads(path.read_text(encoding="utf-8")))
+        note = replace(note, wall_seconds=float(note.wall_seconds))
     except (ValueError, TypeError) as error:
         raise PanelsimError("The note on the runs is damaged", got=f"{path} ({error})") from error
     wanted, found = ((one.study, one.extent, one.panelsim_version) for one in (begun, note))
@@ -56,14 +57,21 @@ def open_runs_folder(folder: Path, study: str, extent: str) -> RunsNote:
 
 
 @contextmanager
-def timed(folder: Path, note: RunsNote) -> Iterator[None]:
-    """Note the study in the folder, and at the end, also one by an interrupt, the time that a block took."""
-    _write(folder, note)
+def timed(folder: Path, note: RunsNote) -> Iterator[Callable[[], None]]:
+    """Note the study in the folder, and at the end, also one by an interrupt, the time that a block took.
+
+    The block gets a function that notes the time so far, for a process that is killed has no end.
+    """
     start = time.monotonic()
-    try:
-        yield
-    finally:
+
+    def noted() -> None:
         _write(folder, replace(note, wall_seconds=note.wall_seconds + time.monotonic() - start))
+
+    _write(folder, note)
+    try:
+        yield noted
+    finally:
+        noted()
 
 
 def _write(folder: Path, note: RunsNote) -> None:
