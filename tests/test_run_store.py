@@ -172,6 +172,19 @@ def test_a_file_cut_short_is_refused(store: RunStore, case: Case, make_history: 
             read(case)
 
 
+def test_a_bit_of_the_motions_that_fell_over_is_noticed(
+    store: RunStore, case: Case, make_history: Any
+) -> None:
+    history = make_history()
+    keep(store, case, history)
+    content = bytearray(store.path(case).read_bytes())
+    at = content.index(history.displacement[-5:].tobytes())
+    content[at + 3] ^= 16
+    store.path(case).write_bytes(content)
+    with pytest.raises(PanelsimError, match="damaged"):
+        store.load(case)
+
+
 def test_a_file_without_motions_is_refused(store: RunStore, case: Case) -> None:
     store.folder.mkdir()
     with h5py.File(store.path(case), "w") as file:

@@ -20,6 +20,8 @@ from panelsim.studies.tm2003_190.wave_frequencies import at_wave_frequencies
 SLOW = (Dof.SURGE, Dof.SWAY, Dof.ROLL, Dof.YAW)
 # A load makes most of a difference if what it alone misses has half of the RMS, a quarter of the variance.
 ALONE = 0.5
+# Parts cancel where one of them is larger than the difference by more than its realizations scatter.
+CANCELS = 1.2
 
 
 @dataclass(frozen=True)
@@ -165,7 +167,9 @@ def loads_in_words(sea: str, parts: LoadParts) -> str:
     left = [mode for mode in SLOW if DOF_NAMES[mode] not in made]
     if left:
         largest = parts.rms[:, left].max()
-        why = f"parts cancel, up to {largest:.2g} times the difference" if largest > 1.0 else "several add up"
+        why = "several act together"
+        if largest > CANCELS:
+            why = f"parts cancel, up to {largest:.2g} times the difference"
         told.append(f"no single load makes that of {_and([DOF_NAMES[mode] for mode in left])}: {why}")
     return f"at {sea} {', '.join(told)}"
 
