@@ -13,6 +13,7 @@ from panelsim.seaway.checks import real_numbers, require_number
 FEWEST_SECTIONS = 5
 _ON_THE_WATERLINE = 1e-6  # share of a section's size within which its ends lie on the water
 _SYMMETRIC = 1e-5  # share of a section's size within which its two sides are mirror images
+_REPEATED = 1e-9  # share of a section's size within which points are one
 
 
 @dataclass(frozen=True, eq=False)
@@ -228,11 +229,16 @@ def _from_the_centreline(points: FloatArray) -> FloatArray:
     height = (z[:-1] * y[1:] - z[1:] * y[:-1])[crossing] / (y[1:] - y[:-1])[crossing]
     first = int(crossing[np.argmax(height)])
     top = np.array([[0.0, height.max()]])
+    beside = points[first : first + 2]
+    distance = np.hypot(*(beside - top).T)
+    if distance.min() <= _REPEATED * np.ptp(points, axis=0).max():
+        # It is the crossing itself: were it left out for that, the outline would move.
+        top = beside[[np.argmin(distance)]]
     turned = _without_repeats(np.vstack([top, points[first + 1 : -1], points[: first + 1], top]))
     turned[-1] = turned[0]
     return turned
 
 
 def _without_repeats(points: FloatArray) -> FloatArray:
-    moves = np.hypot(*np.diff(points, axis=0).T) > 1e-9 * np.ptp(points, axis=0).max()
+    moves = np.hypot(*np.diff(points, axis=0).T) > _REPEATED * np.ptp(points, axis=0).max()
     return points[np.concatenate([[True], moves])]
