@@ -338,6 +338,8 @@ def test_the_range_of_the_rounds_is_told() -> None:
     assert found.figures.startswith("255 times (247 to 260) at 19, 435 times at 37, 409 times at 160;")
     assert found.remark == "At 19 the rounds lie on both sides of it."
     assert not cost_statement([*rows[1:], timed(19, 0.254 / 247, 0.254 / 249, 0.254 / 260)]).holds
+    all_below = cost_statement([*rows[1:], timed(19, 0.254 / 240, 0.254 / 245, 0.254 / 249)])
+    assert not all_below.holds and not all_below.remark
 
 
 def test_growth_is_told_from_each_size_to_the_next() -> None:

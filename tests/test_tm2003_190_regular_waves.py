@@ -10,11 +10,14 @@ import pytest
 from panelsim.case import Case
 from panelsim.conventions import ComplexArray, Dof, FloatArray
 from panelsim.loads.hull_pressure import hull_pressure
+from panelsim.response.linear_ship import LinearShip
 from panelsim.studies.case_history import case_history
 from panelsim.studies.run_store import StoredRun
+from panelsim.studies.tm2003_190 import excess_answer as excess_answer_module
+from panelsim.studies.tm2003_190 import regular_causes
 from panelsim.studies.tm2003_190.common import base_case
 from panelsim.studies.tm2003_190.excess_answer import ExcessAnswer, excess_answer, transom_immersion
-from panelsim.studies.tm2003_190.excess_load import excess_load
+from panelsim.studies.tm2003_190.excess_load import ExcessLoad, excess_load
 from panelsim.studies.tm2003_190.regular_causes import causes_table, growth, growth_told
 from panelsim.studies.tm2003_190.regular_runs import (
     MEASURED,
@@ -326,6 +329,41 @@ def test_the_linear_ship_with_the_excess_load_is_the_run(base: Case) -> None:
         assert abs(found.displaced - found.run) < 0.5 * abs(found.pressure - found.run)
     # Waves from ahead push her back.
     assert found.surge < -1.0
+
+
+@pytest.mark.parametrize(("section", "stern"), [(0, 1.0), (-1, 0.0)])
+def test_an_excess_as_large_as_the_load_of_the_waves_doubles_the_motion(
+    base: Case, monkeypatch: pytest.MonkeyPatch, section: int, stern: float
+) -> None:
+    runs = RegularRuns(base, (0.2,), (1.0,), (0.05,), {})
+    (case,) = runs.cases
+    waves = case.seaway.components
+    ship = LinearShip(case.ship, case.database(), case.supplementary)
+    of_waves = ship.in_waves(waves.frequency, waves.wave_heading, np.array([case.speed]), np.zeros(1))
+    load = np.zeros((3, 6), dtype=complex)
+    load[section] = waves.amplitude[0] * (of_waves.froude_krylov[0] + of_waves.diffraction[0, 0])
+    excess = ExcessLoad(np.arange(4.0), 1.5 * load, 0.5 * load)
+    monkeypatch.setattr(excess_answer_module, "excess_load", lambda store, case: excess)
+    store = MadeUpRuns(runs, lambda case: 1.1)
+    found = excess_answer(store, case, Dof.PITCH)  # type: ignore[arg-type]
+    # Rounding; that of the run is of samples.
+    assert (found.pressure, found.stern) == pytest.approx((1.0, stern), abs=1e-9)
+    assert found.run == pytest.approx(0.1, abs=1e-6)
+    # She lies where she would be.
+    assert (found.surge, found.displaced) == pytest.approx((0.0, found.pressure), abs=1e-9)
+
+
+def test_causes_are_sought_at_the_steepness_that_is_shown(
+    base: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    runs = RegularRuns(base, (0.12, 0.2), (1.0, 2.0), (1 / 30, 1 / 20, 1 / 15), {})
+    linear = np.ones((2, 2, 2), dtype=complex)
+    transfer = np.ones((2, 2, 3, 2), dtype=complex)
+    transfer[0, 1, 1, 0], transfer[0, 0, 2, 1], transfer[1, 0, 1, 1] = 0.8, 1.5, 1.04
+    monkeypatch.setattr(regular_causes, "excess_answer", lambda store, case, mode: (case, mode))
+    store = MadeUpRuns(runs, lambda case: 1.0)
+    found = regular_causes.found_causes(store, runs, _measured(transfer), linear, 1)  # type: ignore[arg-type]
+    assert found == {(0, 1, 0): (runs.by_index[0, 1, 1], Dof.HEAVE)}
 
 
 def test_the_section_says_what_the_runs_show(study: RegularWaves, tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
@@ -42,6 +42,8 @@ def test_area_is_one_and_the_mean_cosine_is_its_closed_form(spreading: Spreading
 
 @settings(deadline=None, max_examples=60)
 @given(SPREADINGS, st.floats(-np.pi, np.pi))
+@example(CosineHalfAngle(0.25), np.pi)
+@example(CosinePower(0.2), 0.5 * np.pi)
 def test_symmetric_periodic_and_zero_outside(spreading: Spreading, offset: float) -> None:
     density = spreading.density(offset)
     scale = spreading.density(0.0)
@@ -52,6 +54,14 @@ def test_symmetric_periodic_and_zero_outside(spreading: Spreading, offset: float
     assert 0.0 <= density <= scale
     if abs(offset) > spreading.half_width:
         assert density == 0.0
+
+
+@pytest.mark.parametrize("spreading", [CosineHalfAngle(0.25), CosinePower(0.2), CosineSquared(np.pi)])
+def test_nothing_comes_from_the_end_of_the_spread(spreading: Spreading) -> None:
+    ends = spreading.half_width * np.array([-1.0, 1.0])
+    # cos² keeps the square of a rounding.
+    assert spreading.density(ends) == pytest.approx(0.0, abs=1e-30)
+    assert (spreading.density(0.999 * ends) > 0.0).all()
 
 
 @settings(deadline=None, max_examples=40)

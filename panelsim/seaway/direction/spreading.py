@@ -11,6 +11,8 @@ from panelsim.conventions import FloatArray
 from panelsim.errors import PanelsimError
 from panelsim.seaway.checks import require_positive
 
+_ROUNDING = 1e-14  # rad, of angles of some turns
+
 
 class Spreading(ABC):
     """A spreading function of area 1 over the circle, symmetric about the mean direction."""
@@ -93,7 +95,7 @@ class CosinePower(Spreading):
 
     def density(self, offset: ArrayLike) -> FloatArray:
         """G [1/rad] at offsets [rad] from the mean direction; offsets wrap at ±π."""
-        cosine = np.maximum(np.cos(np.asarray(offset, dtype=float)), 0.0)
+        cosine = _cosine(np.asarray(offset, dtype=float)).clip(min=0.0)
         return cosine**self.power / float(beta((self.power + 1) / 2, 0.5))
 
     @property
@@ -123,10 +125,16 @@ class CosineHalfAngle(Spreading):
 
     def density(self, offset: ArrayLike) -> FloatArray:
         """G [1/rad] at offsets [rad] from the mean direction; offsets wrap at ±π."""
-        cosine = np.abs(np.cos(0.5 * np.asarray(offset, dtype=float)))
+        cosine = np.abs(_cosine(0.5 * np.asarray(offset, dtype=float)))
         return cosine ** (2 * self.spread) / (2 * float(beta(self.spread + 0.5, 0.5)))
 
     @property
     def mean_cosine(self) -> float:
         """R = s/(s + 1)."""
         return self.spread / (self.spread + 1)
+
+
+def _cosine(angle: FloatArray) -> FloatArray:
+    """The cosine, 0 where it is only the rounding of π/2: a power below 1 would make 1e-8 or more of it."""
+    cosine = np.cos(angle)
+    return np.where(np.abs(cosine) < _ROUNDING, 0.0, cosine)

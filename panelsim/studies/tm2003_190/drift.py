@@ -178,11 +178,10 @@ class Drift:
             for model in MODELS:
                 case = self.held[height, model]
                 run = None if store.failure(case) else store.load(case)
-                finished = run is not None and run.early_end is None
                 means.append(
-                    run.displacement[run.after_ramp, :2].mean(axis=0)
-                    if run is not None and finished
-                    else np.full(2, np.nan)
+                    np.full(2, np.nan)
+                    if run is None or run.early_end is not None
+                    else run.displacement[run.after_ramp, :2].mean(axis=0)
                 )
             force[height] = stiffness * (means[0] - means[1])
         return force

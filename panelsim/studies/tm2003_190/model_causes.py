@@ -20,7 +20,7 @@ from panelsim.studies.tm2003_190.wave_frequencies import at_wave_frequencies
 SLOW = (Dof.SURGE, Dof.SWAY, Dof.ROLL, Dof.YAW)
 # A load makes most of a difference if what it alone misses has half of the RMS, a quarter of the variance.
 ALONE = 0.5
-# Parts cancel where one of them is larger than the difference by more than its realizations scatter.
+# Parts cancel where one of them is clearly larger than the difference; near 1 it turns with the realization.
 CANCELS = 1.2
 
 

@@ -179,7 +179,7 @@ class SamplingStatistics:
                 [
                     even.rms / spectral.rms - 1.0,
                     rms.mean(axis=0) - 1.0,
-                    _ONE_SIDE * rms.std(axis=0, ddof=1),
+                    _one_run(rms, axis=0),
                     even.band(self.duration),
                     np.median([one.band(self.duration) for one in drawn], axis=0),
                 ]
@@ -259,7 +259,12 @@ class SamplingStatistics:
 
 def seed_scatter(study: RmsStudy, level: int) -> FloatArray:
     """Half width (S, 6) of the 95 % band of a single run, over the pooled RMS, from its realizations."""
-    return np.asarray(_ONE_SIDE * study.rms[level].std(axis=1, ddof=1) / study.pooled[level])
+    return np.asarray(_one_run(study.rms[level], axis=1) / study.pooled[level])
+
+
+def _one_run(rms: FloatArray, axis: int) -> FloatArray:
+    """Half width of the 95 % band of a single one of many RMS."""
+    return np.asarray(_ONE_SIDE * rms.std(axis=axis, ddof=1))
 
 
 def _worst(values: FloatArray, major: np.ndarray) -> float:
