@@ -5,6 +5,7 @@ the reference. Runs of one sea and realization share their wave components, so t
 none of sampling.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,6 +62,12 @@ class RmsStudy:
     def unknown(self) -> np.ndarray:
         """Seas (S,) of which the reference has no figures, so that nothing can be said of any mode."""
         return np.asarray(np.isnan(self.pooled[self.reference]).all(axis=1))
+
+    def why_no_difference(self, seas: Sequence[int], mode: int) -> str:
+        """Of the reference in these seas "no figures", of a mode that counts in none "minor", else ""."""
+        if self.unknown[seas].all():
+            return "no figures"
+        return "" if self.major[seas, mode].any() else "minor"
 
     @property
     def difference(self) -> FloatArray:

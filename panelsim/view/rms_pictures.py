@@ -180,11 +180,11 @@ def _finish_twin(twin: Axes, why_empty: str) -> None:
 
 def _why_empty(study: RmsStudy, seas: list[int], mode: int) -> str:
     """Why no difference of a mode is drawn in any of the seas; empty where some are."""
-    if study.unknown[seas].all():
-        return "no figures: the reference did not finish"
-    if study.major[seas, mode].any():
-        return ""
-    return f"minor: below {100.0 * MINOR:g} % of the largest"
+    told = {
+        "no figures": "no figures: the reference did not finish",
+        "minor": f"minor: below {100.0 * MINOR:g} % of the largest",
+    }
+    return told.get(study.why_no_difference(seas, mode), "")
 
 
 def _say(axis: Axes, text: str) -> None:

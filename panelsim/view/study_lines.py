@@ -64,7 +64,7 @@ def lines_of(study: RmsStudy, number: int) -> Iterator[Lines]:
             for dof, motion in enumerate(DOF_NAMES):
                 yield Lines(
                     entity=f"study_{number}/{quantity}/{heading:g}_deg/{motion}",
-                    name=_name(quantity, motion, _why_empty(study, chosen, dof)),
+                    name=_name(quantity, motion, study.why_no_difference(chosen, dof)),
                     quantity=quantity,
                     wave_heading_deg=heading,
                     values=amounts[quantity][:, chosen, dof],
@@ -76,14 +76,7 @@ def lines_of(study: RmsStudy, number: int) -> Iterator[Lines]:
 def _name(quantity: str, motion: str, why_empty: str) -> str:
     if quantity == "rms":
         return f"{motion}, RMS [{display_unit(motion)[0]}]"
-    return f"{motion}, difference [%]{why_empty}"
-
-
-def _why_empty(study: RmsStudy, seas: list[int], mode: int) -> str:
-    """What stands behind the title of a plot of differences that has no lines."""
-    if study.unknown[seas].all():
-        return ": no figures"
-    return "" if study.major[seas, mode].any() else ": minor"
+    return f"{motion}, difference [%]" + (f": {why_empty}" if why_empty else "")
 
 
 def _labels(seas: list[StudySea]) -> tuple[str, ...]:
